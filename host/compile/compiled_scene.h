@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "shared/effects.h"
+#include "shared/quality.h"
+#include "shared/scene_types.h"
+
+namespace parhelion {
+
+/// One bit an effect of shaders/shared/effects.h.
+enum class Effect : unsigned {
+#define X(name, id, label) name = id,
+    PARHELION_EFFECTS(X)
+#undef X
+};
+inline constexpr unsigned kEffectCount = 0
+#define X(name, id, label) +1
+    PARHELION_EFFECTS(X)
+#undef X
+    ;
+
+/// Which effects a scene calls for, with the reason for each, on or off.
+struct EffectSet {
+    std::bitset<kEffectCount> on;
+    std::array<std::string, kEffectCount> reasons;
+
+    bool has(Effect effect) const { return on[static_cast<unsigned>(effect)]; }
+    static EffectSet all();
+};
+
+/// shaders/shared/quality.h as values.
+struct Quality {
+    using uint = std::uint32_t;
+#define X(name, id, type, value, label) type name = value;
+    PARHELION_QUALITY(X)
+#undef X
+};
+
+/// Canonical, device-ready arrays: all that either back end reads.
+struct CompiledScene {
+    shared::SceneConstants constants;
+    std::vector<shared::Shape> shapes;             ///< by shape index
+    std::vector<glm::vec4> bvhNodes;               ///< kBvhNodeTexels a node; empty without triangles
+    std::vector<glm::vec4> triangles;              ///< kTriangleTexels a triangle, BVH order
+    std::vector<glm::vec4> vertexNormals;          ///< 3 a triangle; empty when every triangle is flat
+    std::vector<float> density;                    ///< all density voxels; dense: x fastest; bricked: 512 a brick
+    std::vector<std::uint32_t> brickTable;         ///< first voxel of each brick in `density`, or kEmptyBrick
+    std::vector<float> majorants;                  ///< density bound per majorant cell
+    std::vector<glm::vec4> albedoVoxels;           ///< rgb + unused
+    std::vector<float> lightTriangleCdf;
+    std::vector<float> filterTable;                ///< 257 offsets in pixels; empty for the box filter
+    EffectSet effects;
+
+    glm::uvec2 filmSize{0};
+    glm::uvec2 cropOffset{0}, cropSize{0};
+    std::uint64_t sampleCount = 16;
+    glm::dvec3 worldOrigin{0.0};                   ///< world position of this scene's origin (the camera)
+    std::vector<std::string> notes;                ///< what a user should know (dropped lights, ...)
+
+    std::size_t memoryBytes() const;
+};
+
+}  // namespace parhelion

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "base/film.h"
+#include "compile/render_settings.h"
+
+namespace parhelion::reference {
+
+/// Renders on the CPU, in Real = float or double, over all cores. Follows shaders/README.md.
+///
+/// Reads from `scene.effects` nothing: every effect of the scene is always simulated.
+/// @param stop      when it becomes true, the pass over the image in progress is finished and the rest left out
+///                  (film.samples says how many were taken).
+/// @param progress  called from the calling thread between passes with samples per pixel done so far.
+template <typename Real>
+Film render(const CompiledScene& scene, const RenderSettings& settings, const std::atomic<bool>* stop = nullptr,
+            const std::function<void(std::uint64_t)>& progress = {});
+
+extern template Film render<float>(const CompiledScene&, const RenderSettings&, const std::atomic<bool>*,
+                                   const std::function<void(std::uint64_t)>&);
+extern template Film render<double>(const CompiledScene&, const RenderSettings&, const std::atomic<bool>*,
+                                    const std::function<void(std::uint64_t)>&);
+
+/// One sample of one pixel, for parity tests. Adds counters to `counters`.
+/// `decisions`, when given, receives an FNV-1a hash over the path's events (kind, primitive or cell).
+template <typename Real>
+glm::vec<3, Real> tracePath(const CompiledScene& scene, const RenderSettings& settings, glm::uvec2 pixel,
+                            std::uint64_t sample);
+
+}  // namespace parhelion::reference

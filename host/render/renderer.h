@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "base/film.h"
+#include "compile/render_settings.h"
+#include "gpu/device.h"
+
+namespace parhelion::render {
+
+/// How far a render has come.
+struct Progress {
+    double samplesDone = 0;      ///< over all pixels
+    double samplesTotal = 0;
+    double dispatchMs = 0;       ///< device time of the last dispatch
+};
+
+/// Renders a CompiledScene on a Vulkan device, a dispatch at a time.
+///
+/// A window of samples is started for every pixel and driven to its end by as many dispatches as
+/// it takes; each dispatch is sized from the time of the ones before it. The film does not depend on the sizing.
+class Renderer {
+public:
+    /// Uploads the scene and builds the pipelines. `shaderFolder` holds `kernels/`.
+    Renderer(gpu::Device& device, const CompiledScene& scene, const RenderSettings& settings);
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+
+    /// Runs one dispatch. Returns false when every sample is done.
+    /// @throws RuntimeFailure when the device cut a loop or a traversal short.
+    bool step();
+    /// No further window is begun: step() returns false once the samples begun are done.
+    void finishEarly();
+    Progress progress() const;
+    /// The film so far, whole windows only.
+    Film film();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Renders everything: step() until done.
+Film render(gpu::Device& device, const CompiledScene& scene, const RenderSettings& settings);
+
+}  // namespace parhelion::render

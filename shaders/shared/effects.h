@@ -1,0 +1,33 @@
+// The effects a scene can call for: derived by analyseEffects, never chosen by a user.
+//
+// X(identifier, specialisation constant id, label). A boolean constant each; `false` removes the
+// code. Pruning is exact: with its own effects and with all of them on, a scene's film is the same
+// to the bit.
+#ifndef PARHELION_SHARED_EFFECTS_H
+#define PARHELION_SHARED_EFFECTS_H
+
+#define PARHELION_EFFECTS(X)                                                    \
+    X(hasSurfaces, 0, "scattering surfaces")                                    \
+    X(hasQuads, 1, "parallelograms")                                            \
+    X(hasSpheres, 2, "spheres")                                                 \
+    X(hasBoxes, 3, "boxes")                                                     \
+    X(hasTriangles, 4, "triangle meshes (BVH)")                                 \
+    X(hasMedia, 5, "participating media")                                       \
+    X(hasManyMedia, 6, "more than one medium")                                  \
+    X(hasHomogeneousMedia, 7, "homogeneous media (analytic transmittance)")     \
+    X(hasHeterogeneousMedia, 8, "density grids (null-collision tracking)")      \
+    X(hasChromaticExtinction, 9, "chromatic extinction (spectral MIS)")         \
+    X(hasAlbedoGrids, 10, "albedo grids")                                       \
+    X(hasHenyeyGreenstein, 11, "Henyey-Greenstein phase functions")             \
+    X(hasBrickedDensity, 12, "sparse (bricked) density grids")                  \
+    X(hasEnvironment, 13, "environment light")                                  \
+    X(hasEnvironmentSampling, 14, "environment sampled by next-event estimation") \
+    X(hasDeltaLights, 15, "directional and point lights")                       \
+    X(hasAreaLights, 16, "area lights")                                         \
+    X(hasManyLights, 17, "more than one sampled light")                         \
+    X(hasDepthLimit, 18, "path depth limit")                                    \
+    X(hasDoubleSided, 19, "two-sided surfaces")                                 \
+    X(hasVertexNormals, 20, "interpolated vertex normals")                      \
+    X(hasFilterTable, 21, "non-box reconstruction filter")
+
+#endif

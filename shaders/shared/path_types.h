@@ -1,0 +1,66 @@
+// Film, counters and arguments of the path tracing kernel, and the named random dimensions.
+#ifndef PARHELION_SHARED_PATH_TYPES_H
+#define PARHELION_SHARED_PATH_TYPES_H
+
+#include "language.h"
+
+SHARED_BEGIN
+
+// Compensated sums over a pixel's samples: value = high + low (Kahan). 48 bytes a pixel.
+struct FilmPixel {
+    vec3 sumHigh;
+    vec3 sumLow;
+    vec3 squareHigh;  // of the squared samples, per channel
+    vec3 squareLow;
+};
+SHARED_LAYOUT(FilmPixel, 48);
+
+// First surface hit along the primary ray, null surfaces excluded; media ignored. Sums over samples.
+struct FeaturePixel {
+    vec3 albedo;
+    float depth;   // distance from the camera, scene units; 0 where nothing is hit
+    vec3 normal;
+    float hits;    // samples that hit a surface
+};
+SHARED_LAYOUT(FeaturePixel, 32);
+
+// 32-bit words of the counter buffer. The host adds them up after every dispatch and clears them.
+SHARED_CONST(uint, kCounterPathsFinished, 0u);
+SHARED_CONST(uint, kCounterNonFinite, 1u);          // samples dropped because not finite
+SHARED_CONST(uint, kCounterMajorantViolations, 2u); // density above its cell's bound
+SHARED_CONST(uint, kCounterBvhOverflow, 3u);        // traversals cut short: always an error
+SHARED_CONST(uint, kCounterLoopTruncated, 4u);      // loop left without a reason: always an error
+SHARED_CONST(uint, kCounterNegative, 5u);           // samples with a negative channel
+SHARED_CONST(uint, kCounterSteps, 6u);              // tracking steps, for reports
+SHARED_CONST(uint, kCounterCollisions, 7u);         // tentative collisions, for reports
+SHARED_CONST(uint, kCounterVertices, 8u);           // real collisions and surface hits, for reports
+SHARED_CONST(uint, kCounterActiveLanes, 9u);        // lanes that have samples left
+SHARED_CONST(uint, kCounterCount, 16u);
+
+// Random draws: four words from pcg4d(key.x, key.y, vertex, purpose). Vertex 0 is the camera.
+SHARED_CONST(uint, kDrawCamera, 0u);
+SHARED_CONST(uint, kDrawLight, 1u);
+SHARED_CONST(uint, kDrawScatter, 2u);
+SHARED_CONST(uint, kDrawAlbedo, 3u);
+SHARED_CONST(uint, kDrawFeature, 4u);            // the feature pass's film position
+SHARED_CONST(uint, kDrawFlight, 0x40000000u);    // | index of the tentative collision on this ray
+SHARED_CONST(uint, kDrawShadow, 0x80000000u);    // | index of the tentative collision on this ray
+
+struct PathArguments {
+    uvec2 filmSize;      // whole film, pixels
+    uvec2 cropOffset;    // first pixel rendered
+    uvec2 cropSize;      // pixels rendered
+    uint firstPixel;     // first lane's index in this batch, in crop order
+    uint laneCount;      // lanes in this batch
+    uint sampleLow;      // 64-bit index of the first sample of this window
+    uint sampleHigh;
+    uint sampleCount;    // samples per pixel in this window
+    uint seed;
+    uint loopBudget;     // loop-back tests a subgroup may spend in this dispatch
+    uint restart;        // 1: lanes begin the window afresh; 0: they resume their saved path
+};
+SHARED_LAYOUT(PathArguments, 56);
+
+SHARED_END
+
+#endif

@@ -1,0 +1,178 @@
+// Canonical scene records: written by compileScene, read by the kernels and by the reference.
+//
+// World space here has its origin at the camera (compileScene translates in double precision), so
+// distant scenes keep their float resolution where the picture is. Lengths are scene units.
+//
+// Primitive numbering: quads [0, Q), spheres [Q, Q+S), boxes [Q+S, Q+S+B), triangles after them.
+#ifndef PARHELION_SHARED_SCENE_TYPES_H
+#define PARHELION_SHARED_SCENE_TYPES_H
+
+#include "language.h"
+
+SHARED_BEGIN
+
+SHARED_CONST(uint, kMaxQuads, 64u);
+SHARED_CONST(uint, kMaxSpheres, 256u);
+SHARED_CONST(uint, kMaxBoxes, 64u);
+SHARED_CONST(uint, kMaxMedia, 16u);
+SHARED_CONST(uint, kMaxLights, 256u);
+
+SHARED_CONST(uint, kNone, 0xffffffffu);  // "no shape / medium / light / primitive"
+
+// Bits of Shape.flags.
+SHARED_CONST(uint, kShapeNull, 1u);         // null BSDF: a medium boundary, or nothing at all
+SHARED_CONST(uint, kShapeTwoSided, 2u);     // diffuse on both sides
+SHARED_CONST(uint, kShapeFlipNormal, 4u);   // flip_normals (Mitsuba), analytic shapes and meshes
+
+// What a primitive belongs to. Stored as two texels (vec4 each); integers bit-cast into floats.
+struct Shape {
+    vec3 reflectance;  // diffuse albedo, each channel in [0, 1]
+    uint flags;        // kShape*
+    uint interior;     // medium behind the surface (against the normal), or kNone
+    uint exterior;     // shape whose interior surrounds this one, or kNone (vacuum): see "inside" in README
+    uint light;        // index into lights, or kNone
+    uint reserved;
+};
+SHARED_LAYOUT(Shape, 32);
+
+// Parallelogram corner + u * edgeU + v * edgeV, u and v in [0, 1].
+struct Quad {
+    vec3 corner;
+    uint shape;
+    vec3 edgeU;
+    float area;      // |edgeU x edgeV|
+    vec3 edgeV;
+    float reserved;
+    vec3 normal;     // unit, edgeU x edgeV direction, flipped with kShapeFlipNormal already applied
+    float reserved2;
+    vec3 uFromWorld; // u = dot(uFromWorld, p - corner)
+    float reserved3;
+    vec3 vFromWorld; // v = dot(vFromWorld, p - corner)
+    float reserved4;
+};
+SHARED_LAYOUT(Quad, 96);
+
+struct Sphere {
+    vec3 center;
+    float radius;
+    uint shape;
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+};
+SHARED_LAYOUT(Sphere, 32);
+
+// The image of [-1, 1]^3 under an affine map.
+struct Box {
+    mat4x3 localFromWorld;  // columns: x, y, z axes and translation
+    uint shape;
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+};
+SHARED_LAYOUT(Box, 64);
+
+SHARED_CONST(uint, kPhaseIsotropic, 0u);
+SHARED_CONST(uint, kPhaseHenyeyGreenstein, 1u);
+
+// Bits of Medium.flags.
+SHARED_CONST(uint, kMediumHomogeneous, 1u);
+SHARED_CONST(uint, kMediumAlbedoGrid, 2u);
+SHARED_CONST(uint, kMediumBricked, 4u);
+
+// Extinction of channel c at p is sigmaMax * sigmaRatio[c] * density(p).
+struct Medium {
+    mat4x3 gridFromWorld;     // world -> voxel units: the grid spans [0, resolution]
+    vec3 sigmaRatio;          // per-channel extinction / sigmaMax, in [0, 1], largest exactly 1
+    float sigmaMax;           // [1 / scene unit] at density 1
+    vec3 albedo;              // single-scattering albedo, each channel in [0, 1]
+    float g;                  // mean cosine of Henyey-Greenstein, |g| <= 1 - 2^-20
+    uvec3 resolution;         // density voxels per axis
+    uint voxelOffset;         // first voxel in `density` (dense), or first entry in `brickTable`
+    uvec3 cells;              // majorant cells per axis: ceil(resolution / kVoxelsPerCell)
+    uint cellOffset;          // first cell in `majorants`
+    mat4x3 albedoFromWorld;   // world -> voxel units of the albedo grid
+    uvec3 albedoResolution;
+    uint albedoOffset;        // first texel (rgba) in `albedoVoxels`
+    uint phase;               // kPhase*
+    uint flags;               // kMedium*
+    uint reserved0;
+    uint reserved1;
+};
+SHARED_LAYOUT(Medium, 192);
+
+SHARED_CONST(uint, kVoxelsPerCell, 8u);   // majorant cells and bricks are 8^3 voxels
+SHARED_CONST(uint, kEmptyBrick, 0xffffffffu);
+
+SHARED_CONST(uint, kLightDirectional, 0u);
+SHARED_CONST(uint, kLightPoint, 1u);
+SHARED_CONST(uint, kLightQuad, 2u);
+SHARED_CONST(uint, kLightSphere, 3u);
+SHARED_CONST(uint, kLightMesh, 4u);
+SHARED_CONST(uint, kLightEnvironment, 5u);
+
+struct Light {
+    vec3 emission;      // irradiance (directional), intensity (point), radiance (others)
+    uint type;          // kLight*
+    vec3 vector;        // directional: unit direction of travel; point: position
+    uint primitive;     // quad, sphere: primitive id; mesh: first triangle id (global numbering)
+    float selection;    // probability that next-event estimation selects this light; 0: never sampled
+    float cumulative;   // sum of `selection` over this and all earlier lights; exactly 1 from the last sampled one on
+    float area;         // mesh: total area; others 0
+    uint triangleCount; // mesh: number of triangles; their running area fractions start at cdfOffset
+    uint cdfOffset;     // mesh: first entry in `lightTriangleCdf` (last entry exactly 1)
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+};
+SHARED_LAYOUT(Light, 64);
+
+// Pinhole: the camera looks along `forward`; film position (x, y) in pixels from the top left has
+// direction normalize(forward + x * dx + y * dy), with forward pointing at the film's corner (0, 0).
+struct Camera {
+    vec3 forward;
+    uint inside;        // shape whose interior holds the camera, or kNone
+    vec3 dx;
+    float filterRadius; // pixels; 0.5 for box
+    vec3 dy;
+    uint reserved;
+};
+SHARED_LAYOUT(Camera, 48);
+
+// The uniform block: everything small.
+struct SceneConstants {
+    Camera camera;
+    uint quadCount;
+    uint sphereCount;
+    uint boxCount;
+    uint triangleCount;
+    uint mediumCount;
+    uint lightCount;
+    uint environment;       // light index of the environment, or kNone
+    uint maxDepth;          // Mitsuba's max_depth; 0xffffffff: unlimited
+    uint rouletteDepth;     // Mitsuba's rr_depth
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+    Quad quads[kMaxQuads];
+    Sphere spheres[kMaxSpheres];
+    Box boxes[kMaxBoxes];
+    Medium media[kMaxMedia];
+    Light lights[kMaxLights];
+};
+SHARED_LAYOUT(SceneConstants, 48 + 48 + 64 * 96 + 256 * 32 + 64 * 64 + 16 * 192 + 256 * 64);
+
+// BVH: four texels per inner node: (min0, child0) (max0, 0) (min1, child1) (max1, 0), children
+// bit-cast ints. child >= 0: inner node; child < 0: leaf ~((firstTriangle << 3) | count), count in
+// 1..kMaxLeafTriangles, firstTriangle local to the triangle list. Node 0 is the root.
+SHARED_CONST(uint, kBvhNodeTexels, 4u);
+SHARED_CONST(uint, kMaxLeafTriangles, 4u);
+SHARED_CONST(uint, kBvhStackSize, 48u);   // the builder refuses deeper trees
+SHARED_CONST(int, kBvhEnd, 0x7fffffff);
+// Triangles: three texels, xyz vertex; w of the first: shape index bit-cast.
+SHARED_CONST(uint, kTriangleTexels, 3u);
+// Vertex normals: three texels a triangle; all zero where the triangle is flat.
+
+SHARED_END
+
+#endif
