@@ -16,11 +16,11 @@ struct PixelRect {
 
 /// The accumulated film of a render: what both back ends produce.
 struct Film {
-    glm::uvec2 filmSize{0, 0};  ///< whole film, pixels
-    PixelRect crop;             ///< the part rendered
-    std::uint64_t samples = 0;  ///< samples per pixel, the same for every pixel
-    std::vector<shared::FilmPixel> pixels;      ///< crop.size.x * crop.size.y, row by row from the top
-    std::vector<shared::FeaturePixel> features; ///< same order; sums over featureSamples
+    glm::uvec2 filmSize{0, 0};                   ///< whole film, pixels
+    PixelRect crop;                              ///< the part rendered
+    std::uint64_t samples = 0;                   ///< samples per pixel, the same for every pixel
+    std::vector<shared::FilmPixel> pixels;       ///< crop.size.x * crop.size.y, row by row from the top
+    std::vector<shared::FeaturePixel> features;  ///< same order; sums over featureSamples
     std::uint64_t featureSamples = 0;
     std::array<std::uint64_t, shared::kCounterCount> counters{};  ///< summed over the render
 };

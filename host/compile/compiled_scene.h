@@ -4,6 +4,7 @@
 #include <bitset>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "shared/effects.h"
@@ -41,27 +42,36 @@ struct Quality {
 #undef X
 };
 
+/// What one array of a CompiledScene costs.
+struct ArraySize {
+    std::string_view name;
+    std::size_t bytes;
+};
+
 /// Canonical, device-ready arrays: all that either back end reads.
 struct CompiledScene {
-    shared::SceneConstants constants;
-    std::vector<shared::Shape> shapes;             ///< by shape index
-    std::vector<glm::vec4> bvhNodes;               ///< kBvhNodeTexels a node; empty without triangles
-    std::vector<glm::vec4> triangles;              ///< kTriangleTexels a triangle, BVH order
-    std::vector<glm::vec4> vertexNormals;          ///< 3 a triangle; empty when every triangle is flat
-    std::vector<float> density;                    ///< all density voxels; dense: x fastest; bricked: 512 a brick
-    std::vector<std::uint32_t> brickTable;         ///< first voxel of each brick in `density`, or kEmptyBrick
-    std::vector<float> majorants;                  ///< density bound per majorant cell
-    std::vector<glm::vec4> albedoVoxels;           ///< rgb + unused
-    std::vector<float> lightTriangleCdf;
-    std::vector<float> filterTable;                ///< 257 offsets in pixels; empty for the box filter
+    shared::SceneConstants constants{};
+    std::vector<shared::Shape> shapes;          ///< by shape index
+    std::vector<glm::vec4> bvhNodes;            ///< kBvhNodeTexels a node; empty without triangles
+    std::vector<glm::vec4> triangles;           ///< kTriangleTexels a triangle, BVH order
+    std::vector<glm::vec4> vertexNormals;       ///< 3 a triangle; empty when every triangle is flat
+    std::vector<float> density;                 ///< all density voxels; dense: x fastest; bricked: 512 a brick
+    std::vector<std::uint32_t> brickTable;      ///< first voxel of each brick in `density`, or kEmptyBrick
+    std::vector<float> majorants;               ///< density bound per majorant cell
+    std::vector<glm::vec4> albedoVoxels;        ///< rgb + unused
+    std::vector<float> lightTriangleCdf;        ///< mesh lights: running area fractions, see Light.cdfOffset
+    std::vector<std::uint32_t> lightTriangles;  ///< parallel to it: primitive ids (global numbering)
+    std::vector<float> filterTable;             ///< 257 offsets in pixels; empty for the box filter
     EffectSet effects;
 
     glm::uvec2 filmSize{0};
     glm::uvec2 cropOffset{0}, cropSize{0};
     std::uint64_t sampleCount = 16;
-    glm::dvec3 worldOrigin{0.0};                   ///< world position of this scene's origin (the camera)
-    std::vector<std::string> notes;                ///< what a user should know (dropped lights, ...)
+    glm::dvec3 worldOrigin{0.0};     ///< world position of this scene's origin (the camera)
+    std::vector<std::string> notes;  ///< what a user should know (dropped lights, ...)
 
+    /// Bytes of each array, by name, in the order above.
+    std::vector<ArraySize> arraySizes() const;
     std::size_t memoryBytes() const;
 };
 

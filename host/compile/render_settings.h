@@ -13,7 +13,7 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     std::uint32_t featureSamples = 16;  ///< camera rays per pixel for albedo, normal, depth
     Quality quality;
-    EffectSet effects;              ///< usually scene.effects, or EffectSet::all()
+    EffectSet effects;  ///< usually scene.effects, or EffectSet::all()
 };
 
 }  // namespace parhelion

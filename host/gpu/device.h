@@ -1,5 +1,7 @@
 #pragma once
 
+#include <volk.h>
+
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -8,8 +10,6 @@
 #include <span>
 #include <string>
 #include <vector>
-
-#include <volk.h>
 
 #include "gpu/handle.h"
 
@@ -22,14 +22,19 @@ struct DeviceInfo {
 };
 
 struct DeviceOptions {
-    std::string name;         ///< case-insensitive part of the device name, or its index; empty: software driver first
+    std::string name = {};    ///< case-insensitive part of the device name, or its index; empty: software driver first
     bool validation = false;  ///< Khronos validation layer; every message is kept in validationMessages()
-    unsigned vectorBits = 0;  ///< software driver's vector width: 128, 256, 512; 0: the widest the CPU has. First Device of a process decides.
+    /// Software driver's vector width: 128, 256, 512; 0: the widest the CPU has. First Device of a process decides.
+    unsigned vectorBits = 0;
+    /// Told of each validation message as well, those during the device's destruction included.
+    std::function<void(const std::string&)> onValidationMessage = {};
 };
 
-/// Instance, device, queue, command buffer, pipeline cache and limits: one a process.
+/// Instance, device, queue, command buffer, pipeline cache and limits. Outlives its buffers and pipelines.
 class Device {
 public:
+    /// @throws InputError when options.name or vectorBits cannot be had, RuntimeFailure when the loader, a driver,
+    /// the validation layer or a needed feature (Vulkan 1.2, scalarBlockLayout, subgroup operations) is missing.
     explicit Device(const DeviceOptions& options = {});
     ~Device();
     Device(const Device&) = delete;
@@ -38,24 +43,30 @@ public:
     const DeviceInfo& info() const;
     const VkPhysicalDeviceLimits& limits() const;
     unsigned subgroupSize() const;
-    std::uint64_t memoryBytes() const;   ///< largest device-local heap
+    std::uint64_t memoryBytes() const;  ///< largest device-local heap
     VkDevice handle() const;
     const std::vector<std::string>& validationMessages() const;
 
-    /// Host-visible, host-coherent storage + uniform-texel + uniform + transfer memory, zero-initialised.
+    /// Host-visible, host-coherent memory for storage, uniform, texel and transfer use, zero-initialised. An empty
+    /// buffer (0 bytes) can be bound and viewed. @throws RuntimeFailure beyond what the device can allocate.
     class Buffer createBuffer(std::size_t bytes);
-    /// Records with `record`, submits, waits. Returns the device time in milliseconds (timestamps).
+    /// Records with `record`, submits, waits. Returns the device time in milliseconds (timestamps). After an
+    /// exception by `record`, which passes through, nothing has run.
     double submit(const std::function<void(VkCommandBuffer)>& record);
 
     struct Internals;
-    Internals& internals() { return *internals_; }
+    Internals& internals() { return *internals_; }  ///< for host/gpu and its tests: gpu/device_internals.h
 
 private:
     std::unique_ptr<Internals> internals_;
 };
 
-/// Lists what is there, without opening a device.
+/// Lists what is there, without opening a device; DeviceOptions::name takes an index into it.
+/// @throws RuntimeFailure that says what to install when there is nothing.
 std::vector<DeviceInfo> listDevices();
+
+/// Vulkan has no empty buffers: those of 0 bytes hold this many.
+inline constexpr std::size_t kEmptyBufferBytes = 16;
 
 /// A mapped buffer; move-only. data() stays valid for its life.
 class Buffer {
@@ -69,9 +80,13 @@ public:
     VkBuffer handle() const { return buffer_; }
     void* data() { return mapped_; }
     template <typename T>
-    std::span<T> as() { return {static_cast<T*>(mapped_), size_ / sizeof(T)}; }
+    std::span<T> as() {
+        return {static_cast<T*>(mapped_), size_ / sizeof(T)};
+    }
+    /// Copies into [offset, offset + bytes.size()), which must lie inside (asserted).
     void write(std::size_t offset, std::span<const std::byte> bytes);
-    /// A texel view of [offset, offset + bytes); owned by the buffer. @throws RuntimeFailure beyond maxTexelBufferElements.
+    /// A texel view of [offset, offset + bytes), whole texels; owned by the buffer.
+    /// @throws RuntimeFailure beyond maxTexelBufferElements.
     VkBufferView texelView(VkFormat format, std::size_t offset = 0, std::size_t bytes = VK_WHOLE_SIZE);
 
 private:

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <utility>
-
 #include <volk.h>
+
+#include <utility>
 
 namespace parhelion::gpu {
 

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <map>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 #include "base/error.h"
 
@@ -24,16 +23,20 @@ struct Image {
     bool has(const std::string& channel) const { return channels.contains(channel); }
 };
 
-/// Reads every channel of a (single-part) OpenEXR file as float32.
-/// @throws InputError for a missing or damaged file.
+/// Reads every channel of the data window of an OpenEXR file (scanlines or tiles, first level) as float32: half and
+/// float exactly, uint rounded. String, int, float and double attributes are kept; others describe the file.
+/// @throws InputError for a missing or damaged file, one with several parts, deep pixels or subsampled channels, and
+///         one larger than half of the memory.
 Image readExr(const std::filesystem::path& file);
 
 /// Writes float32 channels, ZIP compressed, through a temporary file and a rename. Strings, doubles and ints become
 /// attributes of those types (int64 beyond int32 as string).
+/// @throws InputError if the file cannot be created, RuntimeFailure if writing fails.
 void writeExr(const std::filesystem::path& file, const Image& image);
 
-/// Writes channels R G B as an 8-bit sRGB PNG: exposure in stops, then a filmic curve that leaves
-/// values below 0.5 nearly untouched and never clips hue (display only; infinities show white, NaN magenta).
+/// Writes channels R G B as an 8-bit sRGB PNG: exposure in stops, then the curve of image/tone_curve.h, which leaves
+/// values up to 0.5 untouched and never clips hue (display only; infinities show white, NaN magenta).
+/// @throws InputError for missing channels, more than 64 stops either way, or a file that cannot be created.
 void writePng(const std::filesystem::path& file, const Image& image, double exposureStops = 0.0);
 
 }  // namespace parhelion

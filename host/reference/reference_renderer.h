@@ -5,6 +5,7 @@
 
 #include "base/film.h"
 #include "compile/render_settings.h"
+#include "reference/path_trace.h"
 
 namespace parhelion::reference {
 
@@ -23,10 +24,16 @@ extern template Film render<float>(const CompiledScene&, const RenderSettings&, 
 extern template Film render<double>(const CompiledScene&, const RenderSettings&, const std::atomic<bool>*,
                                     const std::function<void(std::uint64_t)>&);
 
-/// One sample of one pixel, for parity tests. Adds counters to `counters`.
-/// `decisions`, when given, receives an FNV-1a hash over the path's events (kind, primitive or cell).
+/// One sample of one pixel, for parity tests.
+///
+/// @param trace  when given, receives the path's events and decisions.
 template <typename Real>
 glm::vec<3, Real> tracePath(const CompiledScene& scene, const RenderSettings& settings, glm::uvec2 pixel,
-                            std::uint64_t sample);
+                            std::uint64_t sample, PathTrace* trace = nullptr);
+
+extern template glm::vec3 tracePath<float>(const CompiledScene&, const RenderSettings&, glm::uvec2, std::uint64_t,
+                                           PathTrace*);
+extern template glm::dvec3 tracePath<double>(const CompiledScene&, const RenderSettings&, glm::uvec2, std::uint64_t,
+                                             PathTrace*);
 
 }  // namespace parhelion::reference

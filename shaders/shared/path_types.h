@@ -46,6 +46,11 @@ SHARED_CONST(uint, kDrawFeature, 4u);            // the feature pass's film posi
 SHARED_CONST(uint, kDrawFlight, 0x40000000u);    // | index of the tentative collision on this ray
 SHARED_CONST(uint, kDrawShadow, 0x80000000u);    // | index of the tentative collision on this ray
 
+// A path saved between dispatches: kPathStateWords words, word w of lane l at w * lanes + l. Word
+// kPathSampleWord counts the samples the lane has finished in this window.
+SHARED_CONST(uint, kPathStateWords, 52u);
+SHARED_CONST(uint, kPathSampleWord, 0u);
+
 struct PathArguments {
     uvec2 filmSize;      // whole film, pixels
     uvec2 cropOffset;    // first pixel rendered

@@ -16,6 +16,7 @@ SHARED_CONST(uint, kMaxSpheres, 256u);
 SHARED_CONST(uint, kMaxBoxes, 64u);
 SHARED_CONST(uint, kMaxMedia, 16u);
 SHARED_CONST(uint, kMaxLights, 256u);
+SHARED_CONST(uint, kMaxInlineShapes, 32u);
 
 SHARED_CONST(uint, kNone, 0xffffffffu);  // "no shape / medium / light / primitive"
 
@@ -56,7 +57,7 @@ struct Sphere {
     vec3 center;
     float radius;
     uint shape;
-    uint reserved0;
+    uint flags;  // the shape's
     uint reserved1;
     uint reserved2;
 };
@@ -66,7 +67,7 @@ SHARED_LAYOUT(Sphere, 32);
 struct Box {
     mat4x3 localFromWorld;  // columns: x, y, z axes and translation
     uint shape;
-    uint reserved0;
+    uint flags;  // the shape's
     uint reserved1;
     uint reserved2;
 };
@@ -111,6 +112,7 @@ SHARED_CONST(uint, kLightSphere, 3u);
 SHARED_CONST(uint, kLightMesh, 4u);
 SHARED_CONST(uint, kLightEnvironment, 5u);
 
+// Lights that next-event estimation samples come first.
 struct Light {
     vec3 emission;      // irradiance (directional), intensity (point), radiance (others)
     uint type;          // kLight*
@@ -151,16 +153,15 @@ struct SceneConstants {
     uint environment;       // light index of the environment, or kNone
     uint maxDepth;          // Mitsuba's max_depth; 0xffffffff: unlimited
     uint rouletteDepth;     // Mitsuba's rr_depth
-    uint reserved0;
-    uint reserved1;
-    uint reserved2;
+    vec3 environmentRadiance;  // of lights[environment]; 0 without one
     Quad quads[kMaxQuads];
     Sphere spheres[kMaxSpheres];
     Box boxes[kMaxBoxes];
     Medium media[kMaxMedia];
     Light lights[kMaxLights];
+    Shape shapes[kMaxInlineShapes];  // the first of the shapes, a copy
 };
-SHARED_LAYOUT(SceneConstants, 48 + 48 + 64 * 96 + 256 * 32 + 64 * 64 + 16 * 192 + 256 * 64);
+SHARED_LAYOUT(SceneConstants, 48 + 48 + 64 * 96 + 256 * 32 + 64 * 64 + 16 * 192 + 256 * 64 + 32 * 32);
 
 // BVH: four texels per inner node: (min0, child0) (max0, 0) (min1, child1) (max1, 0), children
 // bit-cast ints. child >= 0: inner node; child < 0: leaf ~((firstTriangle << 3) | count), count in

@@ -1,0 +1,65 @@
+#include "analysis/image_pair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/tiles.h"
+
+namespace parhelion {
+
+namespace {
+
+std::span<const float> channelOrNothing(const Image& image, const std::string& name) {
+    const auto found = image.channels.find(name);
+    return found == image.channels.end() ? std::span<const float>{} : std::span<const float>(found->second);
+}
+
+}  // namespace
+
+void requireComparable(const Image& image, glm::uvec2 size, const std::string& name) {
+    if (image.size != size)
+        throw InputError(fmt::format("images to compare must have one size, {} x {}; {} is {} x {}", size.x, size.y,
+                                     name, image.size.x, image.size.y));
+    for (const char* channel : kComparedChannels)
+        if (!image.has(channel))
+            throw InputError(
+                fmt::format("images to compare must have channels R, G and B; {} has no '{}'", name, channel));
+}
+
+ChannelPair::Side::Side(const Image& image, const std::string& channel)
+    : values(image.channels.at(channel)),
+      variances(channelOrNothing(image, "variance." + channel)),
+      sampleCounts(channelOrNothing(image, "sampleCount.Y")) {}
+
+bool ChannelPair::Side::isFinite(std::size_t pixel) const {
+    return std::isfinite(values[pixel]) && (variances.empty() || std::isfinite(variances[pixel]));
+}
+
+void ChannelPair::Side::addTo(NoisyMean& mean, std::size_t pixel, double weight) const {
+    mean.value += weight * values[pixel];
+    if (variances.empty()) return;
+    const double degreesOfFreedom =
+        sampleCounts.empty() ? std::numeric_limits<double>::infinity() : std::max(1.0, double{sampleCounts[pixel]} - 1);
+    mean.noise.add(weight * weight * variances[pixel], degreesOfFreedom);
+}
+
+ChannelPair::ChannelPair(const Image& a, const Image& b, const std::string& channel)
+    : channel_(channel), sideA_(a, channel), sideB_(b, channel), width_(a.size.x) {}
+
+MeanPair ChannelPair::means(const PixelRect& rect) const {
+    std::size_t count = 0;
+    forEachPixel(rect, width_, [&](std::size_t i) { count += isFinite(i); });
+    const double weight = 1.0 / static_cast<double>(std::max<std::size_t>(count, 1));
+    MeanPair result;
+    forEachPixel(rect, width_, [&](std::size_t i) {
+        if (!isFinite(i)) return;
+        sideA_.addTo(result.a, i, weight);
+        sideB_.addTo(result.b, i, weight);
+    });
+    return result;
+}
+
+}  // namespace parhelion

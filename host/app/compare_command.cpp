@@ -1,0 +1,150 @@
+#include "app/compare_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "analysis/compare.h"
+#include "app/exit_codes.h"
+#include "app/interrupt.h"
+#include "base/files.h"
+
+namespace parhelion::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// One requirement and how it went.
+struct Verdict {
+    std::string what;
+    double value, limit;
+    bool passed() const { return value <= limit; }
+};
+
+/// The largest |meanA / meanB - 1|; infinite where only meanB is 0.
+double meanDifference(const ImageComparison& comparison) {
+    double largest = 0;
+    for (const ChannelMeans& means : comparison.channels) {
+        const double whenBlack = means.meanA == means.meanB ? 0 : std::numeric_limits<double>::infinity();
+        largest = std::max(largest, means.ratio ? std::abs(*means.ratio - 1) : whenBlack);
+    }
+    return largest;
+}
+
+std::vector<Verdict> judge(const CompareArguments& arguments, const ImageComparison& comparison) {
+    std::vector<Verdict> verdicts;
+    const auto require = [&](const char* what, double value, const std::optional<double>& limit) {
+        if (limit) verdicts.push_back({what, value, *limit});
+    };
+    require("mse", comparison.meanSquaredError, arguments.maxMse);
+    require("mae", comparison.meanAbsoluteError, arguments.maxMae);
+    require("largest error", comparison.maxAbsoluteError, arguments.maxError);
+    require("relmse", comparison.relativeMse, arguments.maxRelativeMse);
+    require("mean difference", meanDifference(comparison), arguments.maxMeanDifference);
+    if (arguments.requireAgreement) verdicts.push_back({"disagreement", comparison.agree() ? 0.0 : 1.0, 0});
+    // Values left out of the figures cannot be within any limit.
+    if (!verdicts.empty()) verdicts.push_back({"non-finite values", static_cast<double>(comparison.nonFinite), 0});
+    return verdicts;
+}
+
+template <typename T>
+Json orNull(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json toJson(const std::optional<LargestDeviation>& deviation) {
+    if (!deviation) return nullptr;
+    return {{"z", deviation->z},
+            {"threshold", deviation->threshold},
+            {"channel", deviation->channel},
+            {"pixel", {deviation->pixel.x, deviation->pixel.y}},
+            {"passed", deviation->passed()}};
+}
+
+Json toJson(const ImageComparison& comparison, const std::vector<Verdict>& verdicts) {
+    Json json = {{"mse", comparison.meanSquaredError},
+                 {"mae", comparison.meanAbsoluteError},
+                 {"max", comparison.maxAbsoluteError},
+                 {"relmse", comparison.relativeMse},
+                 {"relmseEpsilon", comparison.relativeMseEpsilon},
+                 {"nonFinite", comparison.nonFinite},
+                 {"agree", comparison.agree()},
+                 {"channels", Json::array()},
+                 {"means", toJson(comparison.means)},
+                 {"tiles", toJson(comparison.tiles)},
+                 {"pixels", toJson(comparison.pixels)},
+                 {"requirements", Json::array()}};
+    for (const ChannelMeans& means : comparison.channels)
+        json["channels"].push_back({{"channel", means.channel},
+                                    {"meanA", means.meanA},
+                                    {"meanB", means.meanB},
+                                    {"ratio", orNull(means.ratio)},
+                                    {"ratioConfidence", orNull(means.ratioConfidence)},
+                                    {"z", orNull(means.z)}});
+    for (const Verdict& verdict : verdicts)
+        json["requirements"].push_back(
+            {{"what", verdict.what}, {"value", verdict.value}, {"limit", verdict.limit}, {"passed", verdict.passed()}});
+    return json;
+}
+
+/// The differences as a picture: |a - b|, 1 being the mean of b.
+Image errorPicture(const Image& error, const ImageComparison& comparison) {
+    double mean = 0;
+    for (const ChannelMeans& means : comparison.channels)
+        mean += means.meanB / static_cast<double>(comparison.channels.size());
+    Image picture;
+    picture.size = error.size;
+    for (const char* channel : {"R", "G", "B"}) {
+        std::vector<float>& values = picture.channels[channel] = error.channels.at(fmt::format("error.{}", channel));
+        for (float& value : values) value = static_cast<float>(std::abs(value) / (mean > 0 ? mean : 1.0));
+    }
+    return picture;
+}
+
+struct ErrorFiles {
+    fs::path exr, png;
+};
+
+ErrorFiles prepareErrorFiles(const CompareArguments& arguments) {
+    ErrorFiles files{arguments.error, fs::path(arguments.error).replace_extension(".png")};
+    if (files.exr.extension() != ".exr")
+        throw InputError(fmt::format("--error: expected a name that ends in .exr; got {}", arguments.error));
+    for (const fs::path& file : {files.exr, files.png}) AtomicFile probe(file);
+    return files;
+}
+
+}  // namespace
+
+int runCompareCommand(const CompareArguments& arguments) {
+    Interruption interruption;
+    std::optional<ErrorFiles> files;
+    if (!arguments.error.empty()) files = prepareErrorFiles(arguments);
+    const Image a = readExr(arguments.imageA), b = readExr(arguments.imageB);
+    const ImageComparison comparison = compareImages(a, b);
+    if (files) {
+        const Image error = errorImage(a, b);
+        const auto lock = interruption.holdOff();
+        writeExr(files->exr, error);
+        writePng(files->png, errorPicture(error, comparison));
+    }
+    const std::vector<Verdict> verdicts = judge(arguments, comparison);
+    bool passed = true;
+    for (const Verdict& verdict : verdicts) passed = passed && verdict.passed();
+    if (arguments.json) {
+        fmt::print("{}\n", toJson(comparison, verdicts).dump(2));
+        return passed ? kExitSuccess : kExitFailed;
+    }
+    fmt::print("{}", describe(comparison));
+    for (const Verdict& verdict : verdicts)
+        fmt::print("{}  {} {:.6g}, allowed {:.6g}\n", verdict.passed() ? "passed" : "FAILED", verdict.what,
+                   verdict.value, verdict.limit);
+    return passed ? kExitSuccess : kExitFailed;
+}
+
+}  // namespace parhelion::app

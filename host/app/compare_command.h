@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/options.h"
+
+namespace parhelion::app {
+
+struct CompareArguments {
+    std::string imageA, imageB;
+    std::string error;  ///< EXR to write, or empty
+    std::optional<double> maxMse, maxMae, maxError, maxRelativeMse, maxMeanDifference;
+    bool requireAgreement = false;
+    bool json = false;
+};
+
+CLI::App* addCompareCommand(CLI::App& program, CompareArguments& arguments);
+
+/// Prints how two images differ. Returns kExitFailed when a threshold is exceeded.
+int runCompareCommand(const CompareArguments& arguments);
+
+}  // namespace parhelion::app

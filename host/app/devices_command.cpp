@@ -1,0 +1,39 @@
+#include "app/devices_command.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/exit_codes.h"
+#include "gpu/device.h"
+
+namespace parhelion::app {
+
+CLI::App* addDevicesCommand(CLI::App& program, DevicesArguments& arguments) {
+    CLI::App* command = program.add_subcommand("devices", "List the Vulkan devices that can render");
+    command->add_flag("--json", arguments.json, "print as JSON");
+    command->footer(
+        "Examples:\n"
+        "  parhelion devices\n"
+        "  parhelion render cloud.xml --device llvmpipe");
+    return command;
+}
+
+int runDevicesCommand(const DevicesArguments& arguments) {
+    const std::vector<gpu::DeviceInfo> devices = gpu::listDevices();
+    if (arguments.json) {
+        auto json = nlohmann::ordered_json::array();
+        for (const gpu::DeviceInfo& device : devices)
+            json.push_back({{"name", device.name},
+                            {"driver", device.driver},
+                            {"type", device.type},
+                            {"software", device.software}});
+        fmt::print("{}\n", json.dump(2));
+        return kExitSuccess;
+    }
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        fmt::print("{}  {} ({}, {})\n", i, devices[i].name, devices[i].type, devices[i].driver);
+    return kExitSuccess;
+}
+
+}  // namespace parhelion::app

@@ -1,0 +1,26 @@
+#include "app/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parhelion::app {
+
+std::optional<double> estimateRelativeError(const Film& film) {
+    if (film.samples < 2 || film.pixels.empty()) return std::nullopt;
+    const double count = static_cast<double>(film.samples);
+    double meanSum = 0, varianceSum = 0;
+    for (const shared::FilmPixel& pixel : film.pixels) {
+        const glm::dvec3 mean = (glm::dvec3(pixel.sumHigh) + glm::dvec3(pixel.sumLow)) / count;
+        const glm::dvec3 square = (glm::dvec3(pixel.squareHigh) + glm::dvec3(pixel.squareLow)) / count;
+        for (int channel = 0; channel < 3; ++channel) {
+            meanSum += mean[channel];
+            // Rounding can leave a constant pixel a hair below zero.
+            varianceSum += std::max(0.0, square[channel] - mean[channel] * mean[channel]) / (count - 1);
+        }
+    }
+    if (!(meanSum > 0)) return std::nullopt;
+    const double values = 3.0 * static_cast<double>(film.pixels.size());
+    return std::sqrt(varianceSum / values) / (meanSum / values);
+}
+
+}  // namespace parhelion::app

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <optional>
+
+#include "base/film.h"
+
+namespace parhelion::app {
+
+/// The image's noise relative to its brightness: sqrt(mean variance of the pixel means) / mean pixel, over all
+/// pixels and channels. Estimated from the film's own samples, so it misses what they have not yet met (fireflies).
+/// Nothing for fewer than two samples per pixel, or a black image.
+std::optional<double> estimateRelativeError(const Film& film);
+
+}  // namespace parhelion::app

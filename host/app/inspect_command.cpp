@@ -1,0 +1,37 @@
+#include "app/inspect_command.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/exit_codes.h"
+#include "app/scene_inventory.h"
+#include "compile/compile_scene.h"
+
+namespace parhelion::app {
+
+CLI::App* addInspectCommand(CLI::App& program, InspectArguments& arguments) {
+    CLI::App* command =
+        program.add_subcommand("inspect", "Show what a scene holds, what it costs and which effects it calls for");
+    addSceneOptions(*command, arguments.scene);
+    command->add_flag("--json", arguments.json, "print as JSON");
+    command->footer(
+        "Examples:\n"
+        "  parhelion inspect scenes/cloud_box.xml\n"
+        "  parhelion inspect cloud.xml -D volume=dense.vdb --json");
+    return command;
+}
+
+int runInspectCommand(const InspectArguments& arguments) {
+    CompileOptions options;
+    options.size = arguments.scene.size;
+    const CompiledScene scene = compileScene(readScene(arguments.scene), options);
+    const SceneInventory inventory = takeInventory(scene);
+    if (arguments.json)
+        fmt::print("{}\n", toJson(inventory).dump(2));
+    else
+        fmt::print("{}", describe(inventory));
+    return kExitSuccess;
+}
+
+}  // namespace parhelion::app

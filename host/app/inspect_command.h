@@ -1,0 +1,17 @@
+#pragma once
+
+#include "app/options.h"
+
+namespace parhelion::app {
+
+struct InspectArguments {
+    SceneArguments scene;
+    bool json = false;
+};
+
+CLI::App* addInspectCommand(CLI::App& program, InspectArguments& arguments);
+
+/// Prints what a scene holds, what each array costs, and which effects are simulated, with the reason.
+int runInspectCommand(const InspectArguments& arguments);
+
+}  // namespace parhelion::app

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/film.h"
+
+namespace parhelion::app {
+
+/// The largest film the command line accepts, pixels per axis.
+inline constexpr std::uint32_t kMaxFilmSize = 65536;
+
+/// The values of options, from text. Each throws InputError "option: expected ...; got ..." and accepts nothing
+/// before or after the value. `option` is its name as the user writes it.
+
+/// A whole number in [minimum, maximum].
+std::int64_t parseInteger(const std::string& option, const std::string& text, std::int64_t minimum,
+                          std::int64_t maximum);
+/// A finite number in [minimum, maximum].
+double parseNumber(const std::string& option, const std::string& text, double minimum, double maximum);
+/// "WIDTHxHEIGHT", each 1..kMaxFilmSize.
+glm::uvec2 parseSize(const std::string& option, const std::string& text);
+/// "X,Y,WIDTHxHEIGHT": a non-empty rectangle of pixels, origin at the top left.
+PixelRect parseCrop(const std::string& option, const std::string& text);
+/// "name=value"; the value may be empty and may hold further "=".
+std::pair<std::string, std::string> parseDefine(const std::string& option, const std::string& text);
+
+}  // namespace parhelion::app

@@ -1,0 +1,80 @@
+#include "app/render_command.h"
+
+namespace parhelion::app {
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  parhelion render scenes/cloud_box.xml -o cloud.exr --spp 256
+  parhelion render cloud.xml -D sigma=40 --size 320x240 --crop 100,80,64x64
+  parhelion render cloud.xml --backend reference-double --spp 16 -o oracle.exr
+
+Ctrl-C writes the image so far and exits with 130; a second one aborts.
+Exit codes: 0 done, 1 samples dropped or majorants violated, 2 bad input, 3 device or memory, 130 interrupted.)";
+
+constexpr std::int64_t kMaxSamples = std::int64_t{1} << 40;
+constexpr std::int64_t kMaxUint = 0xffffffff;
+
+void addImageOptions(CLI::App& command, RenderArguments& arguments) {
+    command
+        .add_option("-o,--output", arguments.output,
+                    "image to write (.exr; a .png is written beside it); "
+                    "default: the scene's name, in the current folder")
+        ->type_name("FILE");
+    addIntegerOption(command, "--spp", arguments.sampleCount, 1, kMaxSamples,
+                     "samples per pixel, instead of the scene's");
+    addIntegerOption(command, "--seed", arguments.seed, 0, kMaxUint, "picks the random numbers (default 0)");
+    addParsedOption(command, "--crop", arguments.crop, "X,Y,WxH", "render only these pixels of the film", parseCrop);
+    addIntegerOption(command, "--max-depth", arguments.maxDepth, -1, 0x7fffffff,
+                     "scatterings a path may have, instead of the scene's; -1: unlimited");
+    addIntegerOption(command, "--feature-spp", arguments.featureSamples, 0, 65536,
+                     "camera rays per pixel for albedo, normal and depth (default 16; 0: leave them out)");
+    addNumberOption(command, "--exposure", arguments.exposure, -64, 64, "stops; brightens the PNG only (default 0)");
+}
+
+void addDeviceOptions(CLI::App& command, RenderArguments& arguments) {
+    addChoiceOption<Backend, Backend>(command, "--backend", arguments.backend,
+                                      {{"vulkan", Backend::Vulkan},
+                                       {"reference", Backend::Reference},
+                                       {"reference-double", Backend::ReferenceDouble}},
+                                      "what renders (default vulkan); the reference is plain C++ on the CPU");
+    command.add_option("--device", arguments.device, "part of a device's name, or its number: see parhelion devices")
+        ->type_name("NAME");
+    addChoiceOption<std::optional<unsigned>, unsigned>(command, "--vector-bits", arguments.vectorBits,
+                                                       {{"0", 0}, {"128", 128}, {"256", 256}, {"512", 512}},
+                                                       "vector width of the software device (default 0: the widest)");
+    addChoiceOption<std::optional<bool>, bool>(
+        command, "--effects", arguments.allEffects, {{"scene", false}, {"all", true}},
+        "simulate the scene's effects, or keep the code of all (same image, slower)");
+}
+
+void addQualityOptions(CLI::App& command, RenderArguments& arguments) {
+    addChoiceOption<bool, bool>(
+        command, "--nee", arguments.sampleEveryLight, {{"auto", false}, {"all", true}},
+        "aim rays at the lights that gain from it (default auto), or at the constant environment too");
+    addChoiceOption<bool, bool>(command, "--density-filter", arguments.quality.stochasticFilter,
+                                {{"stochastic", true}, {"trilinear", false}},
+                                "one random corner per density lookup (default), or all eight");
+    addNumberOption(command, "--shadow-roulette", arguments.quality.shadowRoulette, 0, 1e6,
+                    "threshold of the shadow rays' roulette, relative to 4 pi times the scattering value (default 3)");
+    addIntegerOption(command, "--steps-per-event", arguments.stepsPerEvent, 1, 1024,
+                     "tracking steps between two event evaluations (default 6): speed only");
+}
+
+}  // namespace
+
+CLI::App* addRenderCommand(CLI::App& program, RenderArguments& arguments) {
+    CLI::App* command = program.add_subcommand("render", "Render a scene to an EXR and a PNG");
+    addSceneOptions(*command, arguments.scene);
+    addImageOptions(*command, arguments);
+    addDeviceOptions(*command, arguments);
+    addQualityOptions(*command, arguments);
+    command->add_flag("--allow-anomalies", arguments.allowAnomalies,
+                      "exit with 0 although samples were dropped as not finite or majorants violated");
+    command->add_flag("--json", arguments.json, "print the report as JSON");
+    command->add_flag("--quiet", arguments.quiet, "print errors only");
+    command->footer(kExamples);
+    return command;
+}
+
+}  // namespace parhelion::app

@@ -1,0 +1,169 @@
+#include "app/render_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/error_estimate.h"
+#include "app/exit_codes.h"
+#include "app/render_backends.h"
+#include "app/render_report.h"
+#include "app/text_format.h"
+#include "base/files.h"
+#include "compile/compile_scene.h"
+#include "image/film_image.h"
+
+namespace parhelion::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct OutputFiles {
+    fs::path exr, png;
+};
+
+/// Where to write; both places are tried now, not after hours of rendering.
+OutputFiles prepareOutputs(const RenderArguments& arguments) {
+    OutputFiles files;
+    files.exr =
+        arguments.output.empty() ? fs::path(arguments.scene.file).stem().concat(".exr") : fs::path(arguments.output);
+    if (files.exr.extension() != ".exr")
+        throw InputError(fmt::format(
+            "--output: expected a name that ends in .exr (a .png is written beside it); got {}", files.exr.string()));
+    files.png = fs::path(files.exr).replace_extension(".png");
+    for (const fs::path& file : {files.exr, files.png}) AtomicFile probe(file);
+    return files;
+}
+
+void refuseVulkanOptions(const RenderArguments& arguments) {
+    const auto refuse = [](const char* option, bool given) {
+        if (given) throw InputError(fmt::format("{}: only --backend vulkan has it; got --backend reference", option));
+    };
+    refuse("--device", !arguments.device.empty());
+    refuse("--vector-bits", arguments.vectorBits.has_value());
+    refuse("--effects", arguments.allEffects.has_value());
+    refuse("--steps-per-event", arguments.stepsPerEvent.has_value());
+}
+
+void requireInside(const PixelRect& crop, glm::uvec2 film) {
+    if (crop.offset.x + crop.size.x > film.x || crop.offset.y + crop.size.y > film.y)
+        throw InputError(fmt::format("--crop: must lie inside the film of {}; got {},{},{}", formatSize(film),
+                                     crop.offset.x, crop.offset.y, formatSize(crop.size)));
+}
+
+CompiledScene compile(const RenderArguments& arguments) {
+    const SceneDescription description = readScene(arguments.scene);
+    CompileOptions options;
+    options.size = arguments.scene.size;
+    options.maxDepth = arguments.maxDepth;
+    options.sampleEveryLight = arguments.sampleEveryLight;
+    if (arguments.crop) {
+        requireInside(*arguments.crop, arguments.scene.size.value_or(description.film.size));
+        options.cropOffset = arguments.crop->offset;
+        options.cropSize = arguments.crop->size;
+    }
+    return compileScene(description, options);
+}
+
+RenderSettings chooseSettings(const RenderArguments& arguments, const CompiledScene& scene) {
+    RenderSettings settings;
+    settings.sampleCount =
+        arguments.sampleCount ? static_cast<std::uint64_t>(*arguments.sampleCount) : scene.sampleCount;
+    settings.seed = arguments.seed;
+    settings.featureSamples = arguments.featureSamples;
+    settings.quality = arguments.quality;
+    if (arguments.stepsPerEvent) settings.quality.stepsPerEvent = *arguments.stepsPerEvent;
+    settings.effects = arguments.allEffects.value_or(false) ? EffectSet::all() : scene.effects;
+    return settings;
+}
+
+RenderOutcome runBackend(const RenderArguments& arguments, const CompiledScene& scene, const RenderSettings& settings,
+                         Interruption& interruption, ProgressDisplay& progress) {
+    switch (arguments.backend) {
+        case Backend::Reference:
+            return renderWithReference<float>(scene, settings, interruption, progress);
+        case Backend::ReferenceDouble:
+            return renderWithReference<double>(scene, settings, interruption, progress);
+        case Backend::Vulkan:
+            break;
+    }
+    const gpu::DeviceOptions options{.name = arguments.device, .vectorBits = arguments.vectorBits.value_or(0)};
+    return renderWithVulkan(scene, settings, options, interruption, progress);
+}
+
+RenderReport makeReport(const RenderArguments& arguments, const OutputFiles& files, const CompiledScene& scene,
+                        const RenderSettings& settings, const RenderOutcome& outcome) {
+    static constexpr const char* kBackendNames[] = {"vulkan", "reference", "reference-double"};
+    return {.scene = arguments.scene.file,
+            .exr = files.exr.string(),
+            .png = files.png.string(),
+            .backend = kBackendNames[static_cast<int>(arguments.backend)],
+            .device = outcome.device,
+            .driver = outcome.driver,
+            .filmSize = scene.filmSize,
+            .cropOffset = scene.cropOffset,
+            .cropSize = scene.cropSize,
+            .samples = outcome.film.samples,
+            .samplesWanted = settings.sampleCount,
+            .seed = settings.seed,
+            .prepareSeconds = outcome.prepareSeconds,
+            .seconds = outcome.seconds,
+            .relativeError = estimateRelativeError(outcome.film),
+            .effects = settings.effects,
+            .quality = settings.quality,
+            .counters = outcome.film.counters,
+            .notes = scene.notes};
+}
+
+/// The device stops the render itself on these; the reference leaves them to its caller.
+void requireCompleteTraversals(const Film& film) {
+    if (film.counters[shared::kCounterBvhOverflow] > 0 || film.counters[shared::kCounterLoopTruncated] > 0)
+        throw RuntimeFailure(fmt::format("{} traversals and {} loops were cut short: the image would be wrong",
+                                         film.counters[shared::kCounterBvhOverflow],
+                                         film.counters[shared::kCounterLoopTruncated]));
+}
+
+int judge(const RenderArguments& arguments, const RenderReport& report) {
+    if (report.interrupted()) return kExitInterrupted;
+    if (!report.hasAnomalies() || arguments.allowAnomalies) return kExitSuccess;
+    fmt::print(stderr,
+               "parhelion: error: the image was written, but samples were dropped or majorants violated "
+               "(--allow-anomalies accepts it)\n");
+    return kExitFailed;
+}
+
+}  // namespace
+
+int runRenderCommand(const RenderArguments& arguments) {
+    Interruption interruption;
+    if (arguments.backend != Backend::Vulkan) refuseVulkanOptions(arguments);
+    const OutputFiles files = prepareOutputs(arguments);
+    const CompiledScene scene = compile(arguments);
+    const RenderSettings settings = chooseSettings(arguments, scene);
+    if (!arguments.quiet)
+        for (const std::string& note : scene.notes) fmt::print(stderr, "parhelion: note: {}\n", note);
+    ProgressDisplay progress(stderr, arguments.quiet);
+    const RenderOutcome outcome = runBackend(arguments, scene, settings, interruption, progress);
+    requireCompleteTraversals(outcome.film);
+    if (outcome.film.samples == 0) {
+        fmt::print(stderr, "parhelion: interrupted before the first samples were done; nothing was written\n");
+        return kExitInterrupted;
+    }
+    const RenderReport report = makeReport(arguments, files, scene, settings, outcome);
+    Image image = toImage(outcome.film);
+    addAttributes(report, image);
+    {
+        const auto lock = interruption.holdOff();
+        writeExr(files.exr, image);
+        writePng(files.png, image, arguments.exposure);
+    }
+    if (arguments.json)
+        fmt::print("{}\n", toJson(report).dump(2));
+    else if (!arguments.quiet)
+        fmt::print("{}", describe(report));
+    return judge(arguments, report);
+}
+
+}  // namespace parhelion::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/options.h"
+#include "compile/render_settings.h"
+
+namespace parhelion::app {
+
+enum class Backend { Vulkan, Reference, ReferenceDouble };
+
+/// parhelion render: what the user asked for. Options left out are empty.
+struct RenderArguments {
+    SceneArguments scene;
+    std::string output;
+    std::optional<std::int64_t> sampleCount, maxDepth;
+    std::optional<PixelRect> crop;
+    std::uint32_t seed = 0;
+    std::uint32_t featureSamples = 16;
+    Backend backend = Backend::Vulkan;
+    bool sampleEveryLight = false;
+    Quality quality;
+    // Those that only the Vulkan back end has.
+    std::string device;
+    std::optional<unsigned> vectorBits;
+    std::optional<bool> allEffects;
+    std::optional<std::uint32_t> stepsPerEvent;
+
+    double exposure = 0;
+    bool allowAnomalies = false, json = false, quiet = false;
+};
+
+CLI::App* addRenderCommand(CLI::App& program, RenderArguments& arguments);
+
+/// Renders and writes an EXR and a PNG. Returns the exit code.
+int runRenderCommand(const RenderArguments& arguments);
+
+}  // namespace parhelion::app

@@ -1,0 +1,112 @@
+#include "app/render_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/effect_names.h"
+#include "app/text_format.h"
+
+namespace parhelion::app {
+
+namespace {
+
+struct CounterName {
+    std::uint32_t counter;
+    const char* identifier;
+    const char* meaning;
+};
+
+constexpr CounterName kCounterNames[] = {
+    {shared::kCounterNonFinite, "nonFinite", "samples dropped because not finite"},
+    {shared::kCounterMajorantViolations, "majorantViolations", "densities above their majorant"},
+    {shared::kCounterNegative, "negative", "samples with a negative channel"},
+    {shared::kCounterPathsFinished, "pathsFinished", "paths"},
+    {shared::kCounterVertices, "vertices", "scatterings"},
+    {shared::kCounterCollisions, "collisions", "tentative collisions"},
+    {shared::kCounterSteps, "steps", "tracking steps"},
+};
+
+}  // namespace
+
+double RenderReport::samplesPerSecond() const {
+    const double taken = static_cast<double>(samples) * cropSize.x * cropSize.y;
+    return seconds > 0 ? taken / seconds : 0;
+}
+
+bool RenderReport::hasAnomalies() const {
+    return counters[shared::kCounterNonFinite] > 0 || counters[shared::kCounterMajorantViolations] > 0;
+}
+
+void addAttributes(const RenderReport& report, Image& image) {
+    auto& attributes = image.attributes;
+    const auto samples = static_cast<std::int64_t>(report.samples);
+    attributes["samplesPerPixel"] = samples;
+    attributes["renderTimeSeconds"] = report.seconds;
+    attributes["parhelion.version"] = std::string(PARHELION_VERSION);
+    attributes["parhelion.scene"] = report.scene;
+    attributes["parhelion.backend"] = report.backend;
+    attributes["parhelion.device"] = report.device;
+    attributes["parhelion.driver"] = report.driver;
+    attributes["parhelion.samples"] = samples;
+    attributes["parhelion.seed"] = static_cast<std::int64_t>(report.seed);
+    attributes["parhelion.seconds"] = report.seconds;
+    attributes["parhelion.effects"] = effectsKey(report.effects);
+    attributes["parhelion.quality"] = qualityKey(report.quality);
+    for (const auto& [counter, identifier, meaning] : kCounterNames)
+        attributes[fmt::format("parhelion.{}", identifier)] = static_cast<std::int64_t>(report.counters[counter]);
+}
+
+nlohmann::ordered_json toJson(const RenderReport& report) {
+    nlohmann::ordered_json json = {
+        {"version", PARHELION_VERSION},
+        {"scene", report.scene},
+        {"exr", report.exr},
+        {"png", report.png},
+        {"backend", report.backend},
+        {"device", report.device},
+        {"driver", report.driver},
+        {"filmSize", {report.filmSize.x, report.filmSize.y}},
+        {"cropOffset", {report.cropOffset.x, report.cropOffset.y}},
+        {"cropSize", {report.cropSize.x, report.cropSize.y}},
+        {"samples", report.samples},
+        {"samplesWanted", report.samplesWanted},
+        {"interrupted", report.interrupted()},
+        {"seed", report.seed},
+        {"prepareSeconds", report.prepareSeconds},
+        {"seconds", report.seconds},
+        {"samplesPerSecond", report.samplesPerSecond()},
+        {"relativeError", nullptr},
+        {"effects", effectsKey(report.effects)},
+        {"quality", qualityKey(report.quality)},
+        {"anomalies", report.hasAnomalies()},
+        {"counters", nlohmann::ordered_json::object()},
+        {"notes", report.notes},
+    };
+    if (report.relativeError) json["relativeError"] = *report.relativeError;
+    for (const auto& [counter, identifier, meaning] : kCounterNames)
+        json["counters"][identifier] = report.counters[counter];
+    return json;
+}
+
+std::string describe(const RenderReport& report) {
+    std::string text;
+    if (report.interrupted())
+        text += fmt::format("interrupted after {} of {} samples per pixel\n", report.samples, report.samplesWanted);
+    text += fmt::format("image     {}\nview      {}\n", report.exr, report.png);
+    text += fmt::format("device    {} ({})\n", report.device, report.driver);
+    text += fmt::format("time      {} rendering, {} preparing\n", formatDuration(report.seconds),
+                        formatDuration(report.prepareSeconds));
+    text +=
+        fmt::format("samples   {} per pixel, {} samples/s\n", report.samples, formatCount(report.samplesPerSecond()));
+    if (report.relativeError)
+        text += fmt::format("error     {} of the image's mean, by its own variance\n",
+                            formatPercent(*report.relativeError));
+    for (const auto& [counter, identifier, meaning] : kCounterNames)
+        if (report.counters[counter] > 0)
+            text +=
+                fmt::format("counted   {} {}\n", formatCount(static_cast<double>(report.counters[counter])), meaning);
+    return text;
+}
+
+}  // namespace parhelion::app

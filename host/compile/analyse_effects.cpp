@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compile/compile_scene.h"
+
+namespace parhelion {
+
+namespace {
+
+class Analysis {
+public:
+    explicit Analysis(const CompiledScene& scene) : scene_(scene), constants_(scene.constants) {}
+
+    EffectSet run() {
+        surfaces();
+        media();
+        lights();
+        decide(Effect::hasDepthLimit, constants_.maxDepth != shared::kNone,
+               fmt::format("paths end after depth {}", constants_.maxDepth), "paths end by roulette alone");
+        decide(Effect::hasFilterTable, !scene_.filterTable.empty(),
+               fmt::format("the reconstruction filter reaches {} pixels", constants_.camera.filterRadius),
+               "the reconstruction filter is the pixel's box");
+        return std::move(effects_);
+    }
+
+private:
+    void decide(Effect effect, bool on, const std::string& why, const std::string& whyNot) {
+        const auto index = static_cast<unsigned>(effect);
+        effects_.on[index] = on;
+        effects_.reasons[index] = on ? "yes: " + why : "no: " + whyNot;
+    }
+
+    static std::string countOf(std::size_t count, const std::string& one, const std::string& many) {
+        return fmt::format("{} {}", count, count == 1 ? one : many);
+    }
+
+    template <typename Predicate>
+    std::size_t countShapes(Predicate accept) const {
+        return std::size_t(std::ranges::count_if(scene_.shapes, accept));
+    }
+
+    template <typename Predicate>
+    std::size_t countMedia(Predicate accept) const {
+        return std::size_t(std::count_if(constants_.media, constants_.media + constants_.mediumCount, accept));
+    }
+
+    template <typename Predicate>
+    std::size_t countLights(Predicate accept) const {
+        return std::size_t(std::count_if(constants_.lights, constants_.lights + constants_.lightCount, accept));
+    }
+
+    void surfaces() {
+        const std::size_t opaque = countShapes([](const auto& shape) { return !(shape.flags & shared::kShapeNull); });
+        const std::size_t twoSided =
+            countShapes([](const auto& shape) { return shape.flags & shared::kShapeTwoSided; });
+        decide(Effect::hasSurfaces, opaque > 0, countOf(opaque, "opaque shape", "opaque shapes"), "no opaque shape");
+        decide(Effect::hasQuads, constants_.quadCount > 0,
+               countOf(constants_.quadCount, "parallelogram", "parallelograms"), "no parallelogram");
+        decide(Effect::hasSpheres, constants_.sphereCount > 0, countOf(constants_.sphereCount, "sphere", "spheres"),
+               "no sphere");
+        decide(Effect::hasBoxes, constants_.boxCount > 0, countOf(constants_.boxCount, "box", "boxes"), "no box");
+        decide(Effect::hasTriangles, constants_.triangleCount > 0,
+               countOf(constants_.triangleCount, "triangle", "triangles"), "no triangle");
+        decide(Effect::hasDoubleSided, twoSided > 0, countOf(twoSided, "two-sided shape", "two-sided shapes"),
+               "every surface is one-sided");
+        decide(Effect::hasVertexNormals, !scene_.vertexNormals.empty(), "a mesh has vertex normals",
+               "every triangle is flat");
+    }
+
+    void media() {
+        using shared::Medium;
+        const std::size_t count = constants_.mediumCount;
+        const std::size_t homogeneous =
+            countMedia([](const Medium& medium) { return medium.flags & shared::kMediumHomogeneous; });
+        const std::size_t chromatic =
+            countMedia([](const Medium& medium) { return medium.sigmaRatio != glm::vec3(1.0f); });
+        const std::size_t albedoGrids =
+            countMedia([](const Medium& medium) { return medium.flags & shared::kMediumAlbedoGrid; });
+        const std::size_t anisotropic =
+            countMedia([](const Medium& medium) { return medium.phase == shared::kPhaseHenyeyGreenstein; });
+        const std::size_t bricked =
+            countMedia([](const Medium& medium) { return medium.flags & shared::kMediumBricked; });
+        decide(Effect::hasMedia, count > 0, countOf(count, "medium", "media"), "no medium");
+        decide(Effect::hasManyMedia, count > 1, countOf(count, "medium", "media"), countOf(count, "medium", "media"));
+        decide(Effect::hasHomogeneousMedia, homogeneous > 0,
+               countOf(homogeneous, "homogeneous medium", "homogeneous media"), "no homogeneous medium");
+        decide(Effect::hasHeterogeneousMedia, count > homogeneous,
+               countOf(count - homogeneous, "medium with a density grid", "media with density grids"),
+               "no density grid");
+        decide(Effect::hasChromaticExtinction, chromatic > 0,
+               countOf(chromatic, "medium's extinction", "media's extinctions") + " differ between channels",
+               "every extinction is grey");
+        decide(Effect::hasAlbedoGrids, albedoGrids > 0, countOf(albedoGrids, "albedo grid", "albedo grids"),
+               "every albedo is constant");
+        decide(Effect::hasHenyeyGreenstein, anisotropic > 0,
+               countOf(anisotropic, "anisotropic phase function", "anisotropic phase functions"),
+               "every phase function is isotropic");
+        decide(Effect::hasBrickedDensity, bricked > 0, "a density grid is large and sparse, or huge",
+               "dense grids are small enough");
+    }
+
+    void lights() {
+        using shared::Light;
+        const std::size_t sampled = countLights([](const Light& light) { return light.selection > 0.0f; });
+        const std::size_t delta = countLights([](const Light& light) {
+            return light.type == shared::kLightDirectional || light.type == shared::kLightPoint;
+        });
+        const std::size_t area = countLights([](const Light& light) {
+            return light.type == shared::kLightQuad || light.type == shared::kLightSphere ||
+                   light.type == shared::kLightMesh;
+        });
+        const bool environment = constants_.environment != shared::kNone;
+        const bool environmentSampled = environment && constants_.lights[constants_.environment].selection > 0.0f;
+        decide(Effect::hasEnvironment, environment, "a constant emitter surrounds the scene",
+               "no emitter surrounds the scene");
+        decide(Effect::hasEnvironmentSampling, environmentSampled, "every light is to be sampled",
+               environment ? "scattering finds a constant environment better" : "no emitter surrounds the scene");
+        decide(Effect::hasDeltaLights, delta > 0,
+               countOf(delta, "directional or point light", "directional and point lights"),
+               "no directional or point light");
+        decide(Effect::hasAreaLights, area > 0, countOf(area, "area light", "area lights"), "no area light");
+        decide(Effect::hasManyLights, sampled > 1, countOf(sampled, "sampled light", "sampled lights"),
+               countOf(sampled, "sampled light", "sampled lights"));
+    }
+
+    const CompiledScene& scene_;
+    const shared::SceneConstants& constants_;
+    EffectSet effects_;
+};
+
+}  // namespace
+
+EffectSet analyseEffects(const CompiledScene& scene) { return Analysis(scene).run(); }
+
+}  // namespace parhelion

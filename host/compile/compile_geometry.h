@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compile/compiled_scene.h"
+#include "compile/placed_shape.h"
+
+namespace parhelion {
+
+/// A shape that made it into the compiled scene.
+struct KeptShape {
+    const PlacedShape* placed = nullptr;
+    std::uint32_t interior = shared::kNone;  ///< medium record
+    std::uint32_t exterior = shared::kNone;  ///< shape index
+};
+
+/// Where the geometry of an emissive shape went; one for each kept shape.
+struct EmissiveGeometry {
+    std::uint32_t primitive = shared::kNone;  ///< quad or sphere
+    std::vector<std::uint32_t> triangles;     ///< meshes and tessellated shapes: primitive ids
+};
+
+/// Quads and boxes are tested one by one by every ray, which pays up to about this many; the rest become triangles.
+inline constexpr std::size_t kMaxFlatPrimitives = 24;
+
+/// Writes shapes (all but `light`), quads, spheres, boxes, and triangles under a BVH.
+///
+/// Triangles of zero area are dropped with a note. Media boundaries and lights are the last to be tessellated.
+/// @param scene  receives the arrays and notes.
+/// @return parallel to `shapes`.
+/// @throws InputError for more than kMaxSpheres spheres, and for what float cannot hold.
+std::vector<EmissiveGeometry> compileGeometry(std::span<const KeptShape> shapes, CompiledScene& scene);
+
+}  // namespace parhelion

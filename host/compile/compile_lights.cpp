@@ -1,0 +1,167 @@
+#include "compile/compile_lights.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "compile/transforms.h"
+#include "compile/triangle_soup.h"
+
+namespace parhelion {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Rec. 709, as Mitsuba weighs it.
+double luminance(const glm::vec3& rgb) { return 0.212671 * rgb.r + 0.715160 * rgb.g + 0.072169 * rgb.b; }
+
+bool isBlack(const glm::vec3& rgb) { return rgb == glm::vec3(0.0f); }
+
+/// Radius of a sphere around everything that light can fall on; 1 when there is nothing.
+double sceneRadius(std::span<const KeptShape> shapes) {
+    glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+    for (const KeptShape& shape : shapes) {
+        lower = glm::min(lower, shape.placed->lower);
+        upper = glm::max(upper, shape.placed->upper);
+    }
+    return shapes.empty() ? 1.0 : 0.5 * glm::distance(lower, upper);
+}
+
+TriangleVertices triangleAt(const CompiledScene& scene, std::size_t local) {
+    const glm::vec4* texel = &scene.triangles[shared::kTriangleTexels * local];
+    return {glm::vec3(texel[0]), glm::vec3(texel[1]), glm::vec3(texel[2])};
+}
+
+class LightCompiler {
+public:
+    LightCompiler(std::span<const KeptShape> shapes, std::span<const EmissiveGeometry> geometry, bool sampleEveryLight,
+                  CompiledScene& scene)
+        : shapes_(shapes),
+          geometry_(geometry),
+          sampleEveryLight_(sampleEveryLight),
+          radius_(sceneRadius(shapes)),
+          scene_(scene) {
+        scene.constants.environment = shared::kNone;
+    }
+
+    void addArea(std::uint32_t shapeIndex) {
+        const ShapeDescription& source = *shapes_[shapeIndex].placed->source;
+        const EmissiveGeometry& geometry = geometry_[shapeIndex];
+        const bool hasSurface = geometry.primitive != shared::kNone || !geometry.triangles.empty();
+        if (!source.radiance || !hasSurface) return;
+        const glm::vec3 radiance = toFloat(*source.radiance, source.where, nameOf(source) + ": radiance");
+        if (isBlack(radiance)) return noteBlack(nameOf(source));
+        shared::Light light{};
+        light.emission = radiance;
+        const double area = writeSurface(shapeIndex, light);
+        // From outside, where it would be sampled, a sphere that emits inwards is dark.
+        const bool inwards =
+            light.type == shared::kLightSphere && (scene_.shapes[shapeIndex].flags & shared::kShapeFlipNormal) != 0;
+        scene_.shapes[shapeIndex].light = scene_.constants.lightCount;
+        append(light, inwards ? 0.0 : kPi * area * luminance(radiance), source.where);
+    }
+
+    void addEmitter(const EmitterDescription& emitter) {
+        static constexpr const char* kNames[] = {"directional emitter", "point emitter", "constant emitter"};
+        const std::string name = kNames[static_cast<int>(emitter.type)];
+        shared::Light light{};
+        light.emission = toFloat(emitter.value, emitter.where, name);
+        if (isBlack(light.emission)) return noteBlack(name);
+        light.primitive = shared::kNone;
+        const double flux = luminance(light.emission);
+        switch (emitter.type) {
+            case EmitterDescription::Type::Directional:
+                light.type = shared::kLightDirectional;
+                light.vector = glm::vec3(glm::normalize(emitter.vector));
+                return append(light, flux * kPi * radius_ * radius_, emitter.where);
+            case EmitterDescription::Type::Point:
+                light.type = shared::kLightPoint;
+                light.vector = toFloat(emitter.vector - scene_.worldOrigin, emitter.where, name + ": position");
+                return append(light, 4.0 * kPi * flux, emitter.where);
+            case EmitterDescription::Type::Constant:
+                light.type = shared::kLightEnvironment;
+                scene_.constants.environment = scene_.constants.lightCount;
+                return append(light, sampleEveryLight_ ? 4.0 * kPi * kPi * radius_ * radius_ * flux : 0.0,
+                              emitter.where);
+        }
+    }
+
+    void finish() { assignSelection(powers_, std::span(scene_.constants.lights).first(scene_.constants.lightCount)); }
+
+private:
+    void noteBlack(const std::string& name) { scene_.notes.push_back(fmt::format("{}: its light is black", name)); }
+
+    void append(const shared::Light& light, double power, const SourceLocation& where) {
+        if (scene_.constants.lightCount == shared::kMaxLights)
+            throw InputError(where, fmt::format("a scene may have at most {} lights", shared::kMaxLights));
+        scene_.constants.lights[scene_.constants.lightCount++] = light;
+        powers_.push_back(power);
+    }
+
+    /// Type, primitive and triangle list. Returns the area.
+    double writeSurface(std::uint32_t shapeIndex, shared::Light& light) {
+        const PlacedShape& shape = *shapes_[shapeIndex].placed;
+        const EmissiveGeometry& geometry = geometry_[shapeIndex];
+        light.primitive = geometry.primitive;
+        if (!geometry.triangles.empty()) return writeTriangles(geometry.triangles, light);
+        if (shape.kind == PlacedShape::Kind::Sphere) {
+            light.type = shared::kLightSphere;
+            return 4.0 * kPi * shape.radius * shape.radius;
+        }
+        light.type = shared::kLightQuad;
+        return scene_.constants.quads[geometry.primitive].area;
+    }
+
+    double writeTriangles(std::span<const std::uint32_t> primitives, shared::Light& light) {
+        const shared::SceneConstants& constants = scene_.constants;
+        const std::uint32_t firstTriangle = constants.quadCount + constants.sphereCount + constants.boxCount;
+        std::vector<double> running;
+        double total = 0.0;
+        for (const std::uint32_t primitive : primitives)
+            running.push_back(total += areaOf(triangleAt(scene_, primitive - firstTriangle)));
+
+        light.type = shared::kLightMesh;
+        light.primitive = primitives.front();
+        light.area = float(total);
+        light.triangleCount = std::uint32_t(primitives.size());
+        light.cdfOffset = std::uint32_t(scene_.lightTriangleCdf.size());
+        for (const double area : running) scene_.lightTriangleCdf.push_back(float(area / total));
+        scene_.lightTriangleCdf.back() = 1.0f;
+        scene_.lightTriangles.insert(scene_.lightTriangles.end(), primitives.begin(), primitives.end());
+        return total;
+    }
+
+    std::span<const KeptShape> shapes_;
+    std::span<const EmissiveGeometry> geometry_;
+    bool sampleEveryLight_;
+    double radius_;
+    CompiledScene& scene_;
+    std::vector<double> powers_;
+};
+
+void rejectSecondEnvironment(const SceneDescription& description) {
+    const EmitterDescription* first = nullptr;
+    for (const EmitterDescription& emitter : description.emitters) {
+        if (emitter.type != EmitterDescription::Type::Constant) continue;
+        if (first)
+            throw InputError(emitter.where, fmt::format("a scene may have one constant emitter; the first is at {}",
+                                                        first->where.text()));
+        first = &emitter;
+    }
+}
+
+}  // namespace
+
+void compileLights(const SceneDescription& description, std::span<const KeptShape> shapes,
+                   std::span<const EmissiveGeometry> geometry, bool sampleEveryLight, CompiledScene& scene) {
+    rejectSecondEnvironment(description);
+    LightCompiler lights(shapes, geometry, sampleEveryLight, scene);
+    for (std::uint32_t i = 0; i < shapes.size(); ++i) lights.addArea(i);
+    for (const EmitterDescription& emitter : description.emitters) lights.addEmitter(emitter);
+    lights.finish();
+}
+
+}  // namespace parhelion

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compile/compile_geometry.h"
+
+namespace parhelion {
+
+/// Writes the lights (area lights in shape order, then emitters), their selection probabilities, and Shape.light.
+///
+/// A light is selected with probability 0.5 / n + 0.5 * its share of the power of all n sampled lights, in multiples of
+/// 2^-24: exactly what comparing a 24-bit uniform with `cumulative` gives. Black lights are dropped with a note.
+/// The constant environment is sampled only if `sampleEveryLight`; a sphere that emits inwards never is.
+/// @throws InputError for more than one constant emitter or more than kMaxLights lights.
+void compileLights(const SceneDescription& description, std::span<const KeptShape> shapes,
+                   std::span<const EmissiveGeometry> geometry, bool sampleEveryLight, CompiledScene& scene);
+
+/// `selection` and `cumulative` from the power of each light (0: never sampled). Exposed for tests.
+void assignSelection(std::span<const double> powers, std::span<shared::Light> lights);
+
+}  // namespace parhelion

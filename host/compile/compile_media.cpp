@@ -1,0 +1,192 @@
+#include "compile/compile_media.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "compile/density_storage.h"
+#include "compile/majorant_grid.h"
+#include "compile/transforms.h"
+
+namespace parhelion {
+
+namespace {
+
+constexpr float kLargestG = 1.0f - 0x1p-20f;               // numerics.md H1
+constexpr std::size_t kMaxTexels = std::size_t(1) << 27;   // of a texel buffer
+constexpr std::size_t kMaxDensityVoxels = 4 * kMaxTexels;  // four voxels a texel
+
+std::string nameOf(const MediumDescription& medium) {
+    return medium.id.empty() ? std::string("medium") : fmt::format("medium \"{}\"", medium.id);
+}
+
+double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+
+/// world -> voxel units of a grid under `placement`: [0, resolution].
+glm::mat4x3 voxelsFromScene(const GridPlacement& placement, glm::uvec3 resolution, const glm::dvec3& worldOrigin,
+                            const std::string& subject) {
+    requireInvertible(placement.toWorld, placement.where, subject);
+    const glm::dmat4 localFromScene = glm::inverse(relativeTo(placement.toWorld, worldOrigin));
+    return toFloat(glm::scale(glm::dmat4(1.0), glm::dvec3(resolution)) * localFromScene, placement.where,
+                   subject + ": inverse of to_world");
+}
+
+void writeExtinction(const MediumDescription& medium, shared::Medium& record) {
+    const glm::vec3 sigmaT = toFloat(medium.sigmaT, medium.where, nameOf(medium) + ": sigma_t");
+    record.sigmaMax = std::max({sigmaT.x, sigmaT.y, sigmaT.z});
+    for (int c = 0; c < 3; ++c) record.sigmaRatio[c] = float(medium.sigmaT[c] / largest(medium.sigmaT));
+}
+
+void writePhase(const MediumDescription& medium, shared::Medium& record, std::vector<std::string>& notes) {
+    record.phase = shared::kPhaseIsotropic;
+    if (medium.phase.type == PhaseDescription::Type::Isotropic || medium.phase.g == 0.0) return;
+    record.phase = shared::kPhaseHenyeyGreenstein;
+    record.g = std::clamp(float(medium.phase.g), -kLargestG, kLargestG);
+    if (std::abs(medium.phase.g) > double(kLargestG))
+        notes.push_back(
+            fmt::format("{}: g = {} was limited to {} (1 - 2^-20), the largest that single precision "
+                        "resolves",
+                        nameOf(medium), medium.phase.g, record.g));
+}
+
+void checkAlbedo(const glm::dvec3& albedo, const SourceLocation& where, const std::string& subject) {
+    for (int c = 0; c < 3; ++c)
+        if (!(albedo[c] >= 0.0 && albedo[c] <= 1.0))
+            throw InputError(where, fmt::format("{}: albedo must be in [0, 1]; got {}", subject, albedo[c]));
+}
+
+glm::uvec3 resolutionOf(const Volume& volume) {
+    return volume.channels == 3 ? volume.color.resolution : volume.density.resolution();
+}
+
+std::size_t texelCount(const GridPlacement& placement) {
+    const glm::uvec3 n = resolutionOf(placement.volume);
+    return std::size_t(n.x) * n.y * n.z;
+}
+
+std::vector<glm::vec4> albedoTexels(const Volume& volume) {
+    std::vector<glm::vec4> texels;
+    if (volume.channels == 3) {
+        for (std::size_t i = 0; i + 2 < volume.color.values.size(); i += 3)
+            texels.emplace_back(volume.color.values[i], volume.color.values[i + 1], volume.color.values[i + 2], 0.0f);
+    } else {
+        for (const float value : volume.density.toDense()) texels.emplace_back(value, value, value, 0.0f);
+    }
+    return texels;
+}
+
+/// A grid with the same albedo everywhere becomes that albedo.
+void writeAlbedo(const MediumDescription& medium, const glm::dvec3& worldOrigin, shared::Medium& record,
+                 CompiledScene& scene) {
+    if (!medium.albedoGrid) {
+        checkAlbedo(medium.albedo, medium.where, nameOf(medium));
+        record.albedo = glm::vec3(medium.albedo);
+        return;
+    }
+    const std::vector<glm::vec4> texels = albedoTexels(medium.albedoGrid->volume);
+    for (const glm::vec4& texel : texels) checkAlbedo(glm::dvec3(texel), medium.albedoGrid->where, nameOf(medium));
+    const auto differs = [&](const glm::vec4& texel) { return texel != texels.front(); };
+    if (std::ranges::none_of(texels, differs)) {
+        record.albedo = glm::vec3(texels.front());
+        return;
+    }
+    record.albedo = glm::vec3(1.0f);
+    record.flags |= shared::kMediumAlbedoGrid;
+    record.albedoResolution = resolutionOf(medium.albedoGrid->volume);
+    record.albedoFromWorld =
+        voxelsFromScene(*medium.albedoGrid, record.albedoResolution, worldOrigin, nameOf(medium) + ": albedo");
+    record.albedoOffset = std::uint32_t(scene.albedoVoxels.size());
+    scene.albedoVoxels.insert(scene.albedoVoxels.end(), texels.begin(), texels.end());
+}
+
+void writeDensity(const MediumDescription& medium, const glm::dvec3& worldOrigin, bool bricked, shared::Medium& record,
+                  CompiledScene& scene) {
+    if (!medium.density) {
+        record.flags |= shared::kMediumHomogeneous;
+        record.resolution = record.cells = glm::uvec3(1);
+        return;
+    }
+    const DensityGrid& grid = medium.density->volume.density;
+    const MajorantGrid majorants = buildMajorants(grid);
+    if (!std::isfinite(record.sigmaMax * *std::ranges::max_element(majorants.bounds)))
+        throw InputError(medium.density->where, nameOf(medium) +
+                                                    ": sigma_t times the largest density must be within "
+                                                    "the range of single precision (3.4e38)");
+    record.resolution = grid.resolution();
+    record.gridFromWorld =
+        voxelsFromScene(*medium.density, record.resolution, worldOrigin, nameOf(medium) + ": sigma_t");
+    record.cells = majorants.cells;
+    record.cellOffset = std::uint32_t(scene.majorants.size());
+    scene.majorants.insert(scene.majorants.end(), majorants.bounds.begin(), majorants.bounds.end());
+    record.voxelOffset = appendDensity(grid, bricked, scene);
+    if (bricked) record.flags |= shared::kMediumBricked;
+}
+
+void requireAtMost(std::size_t needed, std::size_t allowed, const char* unit, const std::string& what) {
+    if (needed > allowed)
+        throw RuntimeFailure(fmt::format("{} need {} {}; allowed are {}", what, needed, unit, allowed));
+}
+
+/// Before anything large is allocated.
+DensityPlan planStorage(std::span<const MediumDescription* const> media, std::size_t memoryLimitBytes) {
+    std::vector<const DensityGrid*> grids;
+    std::size_t cells = 0, albedoCount = 0;
+    for (const MediumDescription* medium : media) {
+        if (medium->density) {
+            const DensityGrid& grid = medium->density->volume.density;
+            grids.push_back(&grid);
+            cells += grid.brickTable().size();
+        }
+        if (medium->albedoGrid) albedoCount += texelCount(*medium->albedoGrid);
+    }
+    const DensityPlan plan = planDensityStorage(grids);
+    requireAtMost(plan.voxels, kMaxDensityVoxels, "voxels", "density grids");
+    requireAtMost(plan.tableEntries, kMaxTexels, "bricks", "density grids");
+    requireAtMost(cells, kMaxTexels, "cells", "majorant grids");
+    requireAtMost(albedoCount, kMaxTexels, "voxels", "albedo grids");
+    requireAtMost(plan.bytes() + sizeof(float) * cells + sizeof(glm::vec4) * albedoCount, memoryLimitBytes, "bytes",
+                  "density and albedo grids");
+    return plan;
+}
+
+}  // namespace
+
+std::vector<bool> findEmptyMedia(const SceneDescription& description, std::vector<std::string>& notes) {
+    std::vector<bool> empty;
+    for (const MediumDescription& medium : description.media) {
+        const bool noExtinction = !(float(largest(medium.sigmaT)) > 0.0f);
+        if (medium.density && medium.density->volume.channels != 1)
+            throw InputError(medium.density->where,
+                             fmt::format("{}: sigma_t must be a grid of one channel (colour comes from albedo or a "
+                                         "constant sigma_t); got {} channels",
+                                         nameOf(medium), medium.density->volume.channels));
+        const bool noDensity = medium.density && medium.density->volume.density.maximum() == 0.0f;
+        empty.push_back(noExtinction || noDensity);
+        if (empty.back())
+            notes.push_back(fmt::format("{} was dropped: its {} is zero", nameOf(medium),
+                                        noExtinction ? "extinction" : "density grid"));
+    }
+    return empty;
+}
+
+void compileMedia(std::span<const MediumDescription* const> media, const glm::dvec3& worldOrigin,
+                  std::size_t memoryLimitBytes, CompiledScene& scene) {
+    if (media.size() > shared::kMaxMedia)
+        throw InputError(media[shared::kMaxMedia]->where,
+                         fmt::format("a scene may use at most {} media; got {}", shared::kMaxMedia, media.size()));
+    const DensityPlan plan = planStorage(media, memoryLimitBytes);
+    scene.density.reserve(plan.voxels);
+    scene.brickTable.reserve(plan.tableEntries);
+    for (const MediumDescription* medium : media) {
+        shared::Medium record{};
+        writeExtinction(*medium, record);
+        writePhase(*medium, record, scene.notes);
+        writeAlbedo(*medium, worldOrigin, record, scene);
+        writeDensity(*medium, worldOrigin, plan.bricked, record, scene);
+        scene.constants.media[scene.constants.mediumCount++] = record;
+    }
+}
+
+}  // namespace parhelion

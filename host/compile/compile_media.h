@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compile/compiled_scene.h"
+#include "scene/scene_description.h"
+
+namespace parhelion {
+
+/// Which media of the description do nothing (no extinction, or no density anywhere), with a note for each.
+std::vector<bool> findEmptyMedia(const SceneDescription& description, std::vector<std::string>& notes);
+
+/// Writes media records, density, majorants and albedo voxels.
+///
+/// All density grids are stored alike, since the kernel reads one kind: dense, or bricked if any one of them is large
+/// and mostly empty (more than 64 MiB dense with under 60 % of its bricks occupied) or huge (more than 1 GiB dense).
+/// @param media       in the order of the records to write; none of them empty.
+/// @param worldOrigin subtracted from every placement.
+/// @param memoryLimitBytes  for the arrays written here.
+/// @throws InputError for more than kMaxMedia media, singular placements and albedos outside [0, 1];
+///         RuntimeFailure, stating what is needed and allowed, for grids beyond the limits.
+void compileMedia(std::span<const MediumDescription* const> media, const glm::dvec3& worldOrigin,
+                  std::size_t memoryLimitBytes, CompiledScene& scene);
+
+}  // namespace parhelion

@@ -1,0 +1,143 @@
+#include "compile/compile_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "base/memory.h"
+#include "compile/compile_film.h"
+#include "compile/compile_geometry.h"
+#include "compile/compile_lights.h"
+#include "compile/compile_media.h"
+#include "compile/nesting.h"
+
+namespace parhelion {
+
+namespace {
+
+void compileIntegrator(const SceneDescription& description, const CompileOptions& options, CompiledScene& scene) {
+    const std::int64_t depth = options.maxDepth.value_or(description.integrator.maxDepth);
+    const std::string message = fmt::format("max_depth must be -1 (unlimited) or >= 0; got {}", depth);
+    if (depth < -1 && options.maxDepth) throw InputError(message);
+    const SourceLocation file{description.file.string()};
+    if (depth < -1) throw InputError(file, "integrator: " + message);
+    if (description.integrator.rouletteDepth < 0)
+        throw InputError(
+            file, fmt::format("integrator: rr_depth must be >= 0; got {}", description.integrator.rouletteDepth));
+    // No path reaches 2^32 - 1 vertices: beyond it, every limit is none.
+    constexpr std::int64_t kUnlimited = shared::kNone;
+    scene.constants.maxDepth = depth < 0 ? shared::kNone : std::uint32_t(std::min(depth, kUnlimited));
+    scene.constants.rouletteDepth = std::uint32_t(std::min(description.integrator.rouletteDepth, kUnlimited));
+    scene.sampleCount = description.sampleCount;
+}
+
+/// Decides which shapes and media remain, and numbers them.
+class Selection {
+public:
+    Selection(const SceneDescription& description, std::span<const PlacedShape> shapes, CompiledScene& scene)
+        : shapes_(shapes),
+          nesting_(resolveNesting(shapes, description.media)),
+          emptyMedia_(findEmptyMedia(description, scene.notes)),
+          shapeIndex_(shapes.size(), shared::kNone),
+          mediumIndex_(description.media.size(), shared::kNone) {
+        ignoreMediaOfSurfaceIntegrator(description, scene);
+        for (std::size_t i = 0; i < shapes.size(); ++i)
+            if (isKept(i)) shapeIndex_[i] = count_++;
+        noteDropped(scene);
+        for (std::size_t i = 0; i < shapes.size(); ++i)
+            if (shapeIndex_[i] != shared::kNone) keep(i, description);
+        scene.constants.camera.inside = keptOrAround(nesting_.camera);
+    }
+
+    std::span<const KeptShape> shapes() const { return kept_; }
+    std::span<const MediumDescription* const> media() const { return media_; }
+
+private:
+    /// Mitsuba's `path` integrator sees surfaces only.
+    void ignoreMediaOfSurfaceIntegrator(const SceneDescription& description, CompiledScene& scene) {
+        if (description.integrator.type != "path" || std::ranges::all_of(emptyMedia_, std::identity{})) return;
+        scene.notes.push_back("the path integrator ignores participating media; volpath simulates them");
+        emptyMedia_.assign(emptyMedia_.size(), true);
+    }
+
+    /// The medium behind a boundary, if there is anything of it.
+    std::optional<std::size_t> mediumIn(std::optional<std::size_t> boundary) const {
+        if (!boundary) return std::nullopt;
+        const std::optional<std::size_t> medium = shapes_[*boundary].source->interior;
+        return medium && !emptyMedia_[*medium] ? medium : std::nullopt;
+    }
+
+    bool isKept(std::size_t i) const {
+        const PlacedShape& shape = shapes_[i];
+        if (shape.kind == PlacedShape::Kind::Mesh && shape.source->mesh.triangles.empty()) return false;
+        return !shape.isNull() || mediumIn(i) || mediumIn(nesting_.surrounding[i]);
+    }
+
+    void noteDropped(CompiledScene& scene) const {
+        std::size_t dropped = 0, unreachable = 0;
+        for (std::size_t i = 0; i < shapes_.size(); ++i) {
+            dropped += shapeIndex_[i] == shared::kNone;
+            unreachable += !nesting_.isBoundary[i] && shapes_[i].source->interior.has_value();
+        }
+        if (dropped > 0) scene.notes.push_back(fmt::format("{} shapes that change nothing were dropped", dropped));
+        if (unreachable > 0)
+            scene.notes.push_back(
+                fmt::format("{} opaque shapes have interior media that no path reaches", unreachable));
+    }
+
+    /// A dropped boundary has the same on both sides: what is around it.
+    std::uint32_t keptOrAround(std::optional<std::size_t> boundary) const {
+        while (boundary && shapeIndex_[*boundary] == shared::kNone) boundary = nesting_.surrounding[*boundary];
+        return boundary ? shapeIndex_[*boundary] : shared::kNone;
+    }
+
+    void keep(std::size_t i, const SceneDescription& description) {
+        KeptShape kept;
+        kept.placed = &shapes_[i];
+        kept.exterior = keptOrAround(nesting_.surrounding[i]);
+        if (const auto medium = mediumIn(i); medium && nesting_.isBoundary[i]) {
+            if (mediumIndex_[*medium] == shared::kNone) {
+                mediumIndex_[*medium] = std::uint32_t(media_.size());
+                media_.push_back(&description.media[*medium]);
+            }
+            kept.interior = mediumIndex_[*medium];
+        }
+        kept_.push_back(kept);
+    }
+
+    std::span<const PlacedShape> shapes_;
+    Nesting nesting_;
+    std::vector<bool> emptyMedia_;
+    std::vector<std::uint32_t> shapeIndex_;   ///< by placed shape
+    std::vector<std::uint32_t> mediumIndex_;  ///< by medium of the description
+    std::uint32_t count_ = 0;
+    std::vector<KeptShape> kept_;
+    std::vector<const MediumDescription*> media_;
+};
+
+}  // namespace
+
+CompiledScene compileScene(const SceneDescription& description, const CompileOptions& options) {
+    const std::size_t limit = options.memoryLimitBytes ? options.memoryLimitBytes : physicalMemoryBytes() / 2;
+    CompiledScene scene;
+    compileFilm(description, options, scene);
+    compileCamera(description, scene);
+    compileIntegrator(description, options, scene);
+
+    std::vector<PlacedShape> placed;
+    placed.reserve(description.shapes.size());
+    for (const ShapeDescription& shape : description.shapes) placed.push_back(placeShape(shape, scene.worldOrigin));
+    const Selection selection(description, placed, scene);
+    compileMedia(selection.media(), scene.worldOrigin, limit, scene);
+    const std::vector<EmissiveGeometry> emissive = compileGeometry(selection.shapes(), scene);
+    compileLights(description, selection.shapes(), emissive, options.sampleEveryLight, scene);
+
+    if (scene.memoryBytes() > limit)
+        throw RuntimeFailure(
+            fmt::format("the compiled scene needs {} bytes; allowed are {}", scene.memoryBytes(), limit));
+    scene.effects = analyseEffects(scene);
+    return scene;
+}
+
+}  // namespace parhelion

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene_description.h"
+
+namespace parhelion {
+
+/// A shape of the description in scene space (world space with its origin at the camera), in double.
+struct PlacedShape {
+    enum class Kind { Quad, Sphere, Box, Mesh };
+
+    const ShapeDescription* source = nullptr;
+    Kind kind = Kind::Mesh;
+    glm::dmat4 toScene{1.0};            ///< local space -> scene space; spheres: unused
+    bool mirrored = false;              ///< toScene turns right-handed axes into left-handed ones
+    glm::dvec3 center{0.0};             ///< Kind::Sphere
+    double radius = 0.0;                ///< Kind::Sphere
+    std::vector<glm::dvec3> vertices;   ///< quad: 4, box: 8 corners, (x, y, z) = bits 0, 1, 2; mesh: all; sphere: none
+    glm::dvec3 lower{0.0}, upper{0.0};  ///< bounds
+    double volume = 0.0;                ///< enclosed, > 0 for outward triangles; quad: 0
+
+    bool isNull() const { return source->bsdf.type == BsdfDescription::Type::Null; }
+    bool isAnalyticSolid() const { return kind == Kind::Sphere || kind == Kind::Box; }
+    bool mentionsMedia() const { return source->interior || source->exterior; }
+};
+
+/// What messages call a shape: `sphere "id"`, or `sphere` where it has no id.
+std::string nameOf(const ShapeDescription& shape);
+
+/// Places a shape and checks that it can be simulated.
+/// @throws InputError for singular transforms, spheres under a non-uniform scale, area lights on null surfaces, media
+///         on shapes that enclose nothing or enclose it inside out, and meshes with broken indices.
+PlacedShape placeShape(const ShapeDescription& shape, const glm::dvec3& worldOrigin);
+
+}  // namespace parhelion

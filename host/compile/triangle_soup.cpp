@@ -1,0 +1,104 @@
+#include "compile/triangle_soup.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "compile/transforms.h"
+
+namespace parhelion {
+
+namespace {
+
+glm::dvec3 doubledNormal(const TriangleVertices& t) {
+    return glm::cross(glm::dvec3(t[1]) - glm::dvec3(t[0]), glm::dvec3(t[2]) - glm::dvec3(t[0]));
+}
+
+/// Area^2 <= 1e-30 L^4: no direction of its normal is left in double (numerics.md H45).
+bool isDegenerate(const TriangleVertices& t) {
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 edge = glm::dvec3(t[(k + 1) % 3]) - glm::dvec3(t[k]);
+        longest = std::max(longest, glm::dot(edge, edge));
+    }
+    const glm::dvec3 normal = doubledNormal(t);
+    return 0.25 * glm::dot(normal, normal) <= 1e-30 * longest * longest;
+}
+
+/// Corners of a cube's faces, counterclockwise from outside; bits 0, 1, 2 of a corner are x, y, z.
+constexpr unsigned kCubeFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+constexpr unsigned kRectangleFace[4] = {0, 1, 3, 2};
+
+/// World-space shading normal of each vertex; zero where the mesh gives none.
+std::vector<glm::vec3> shadingNormals(const PlacedShape& shape) {
+    const ShapeDescription& source = *shape.source;
+    if (source.mesh.normals.empty() || source.faceNormals || shape.isNull()) return {};
+    const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(glm::dmat3(shape.toScene)));
+    std::vector<glm::vec3> normals;
+    normals.reserve(source.mesh.normals.size());
+    for (const glm::dvec3& normal : source.mesh.normals) {
+        const glm::dvec3 n = normalMatrix * normal;
+        const double length = glm::length(n);
+        const double side = source.flipNormals ? -1.0 : 1.0;
+        normals.push_back(length > 0.0 && length < 1e300 ? glm::vec3(n * (side / length)) : glm::vec3(0.0f));
+    }
+    return normals;
+}
+
+}  // namespace
+
+double areaOf(const TriangleVertices& triangle) { return 0.5 * glm::length(doubledNormal(triangle)); }
+
+void TriangleSoup::addTriangle(const TriangleVertices& triangle, const TriangleVertices& shading,
+                               std::uint32_t shapeIndex) {
+    if (isDegenerate(triangle)) {
+        ++droppedCount;
+        return;
+    }
+    const bool smooth = std::ranges::all_of(shading, [](const glm::vec3& n) { return n != glm::vec3(0.0f); });
+    vertices.push_back(triangle);
+    normals.push_back(smooth ? shading : TriangleVertices{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)});
+    shapes.push_back(shapeIndex);
+    hasNormals |= smooth;
+}
+
+void TriangleSoup::addMesh(const PlacedShape& shape, std::uint32_t shapeIndex) {
+    const ShapeDescription& source = *shape.source;
+    std::vector<glm::vec3> positions;
+    positions.reserve(shape.vertices.size());
+    for (const glm::dvec3& vertex : shape.vertices)
+        positions.push_back(toFloat(vertex, source.where, nameOf(source) + ": vertices"));
+    const std::vector<glm::vec3> smooth = shadingNormals(shape);
+    for (glm::uvec3 index : source.mesh.triangles) {
+        if (source.flipNormals) std::swap(index.y, index.z);
+        TriangleVertices corners, shading{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
+        for (int k = 0; k < 3; ++k) {
+            corners[k] = positions[index[k]];
+            if (!smooth.empty()) shading[k] = smooth[index[k]];
+        }
+        addTriangle(corners, shading, shapeIndex);
+    }
+}
+
+void TriangleSoup::addFlat(const PlacedShape& shape, std::uint32_t shapeIndex) {
+    const bool isCube = shape.kind == PlacedShape::Kind::Box;
+    // Mirrored corners wind clockwise already. Mitsuba's rectangle and cube then face the other way, too.
+    const bool outwards = isCube && shape.isNull();
+    const bool reverse = outwards ? shape.mirrored : shape.source->flipNormals;
+    const TriangleVertices flat{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
+    for (int face = 0; face < (isCube ? 6 : 1); ++face) {
+        std::array<glm::vec3, 4> corners;
+        for (int k = 0; k < 4; ++k)
+            corners[k] = toFloat(shape.vertices[isCube ? kCubeFaces[face][k] : kRectangleFace[k]], shape.source->where,
+                                 nameOf(*shape.source) + ": corners");
+        if (reverse) std::swap(corners[1], corners[3]);
+        addTriangle({corners[0], corners[1], corners[2]}, flat, shapeIndex);
+        addTriangle({corners[0], corners[2], corners[3]}, flat, shapeIndex);
+    }
+}
+
+void TriangleSoup::add(const PlacedShape& shape, std::uint32_t shapeIndex) {
+    shape.kind == PlacedShape::Kind::Mesh ? addMesh(shape, shapeIndex) : addFlat(shape, shapeIndex);
+}
+
+}  // namespace parhelion

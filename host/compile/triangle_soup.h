@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compile/bvh_builder.h"
+#include "compile/placed_shape.h"
+
+namespace parhelion {
+
+/// Triangles of all shapes, in float, before the BVH orders them.
+struct TriangleSoup {
+    std::vector<TriangleVertices> vertices;
+    std::vector<TriangleVertices> normals;  ///< unit shading normals; all zero: flat
+    std::vector<std::uint32_t> shapes;      ///< shape index of each
+    std::size_t droppedCount = 0;           ///< triangles of zero area
+    bool hasNormals = false;
+
+    /// Adds a mesh, or a rectangle or cube cut into triangles. flip_normals turns the winding and the normals.
+    /// A cube that bounds a medium faces outwards even under a mirroring transform.
+    /// @throws InputError for vertices outside the range of float.
+    void add(const PlacedShape& shape, std::uint32_t shapeIndex);
+
+private:
+    void addTriangle(const TriangleVertices& triangle, const TriangleVertices& shading, std::uint32_t shapeIndex);
+    void addMesh(const PlacedShape& shape, std::uint32_t shapeIndex);
+    void addFlat(const PlacedShape& shape, std::uint32_t shapeIndex);
+};
+
+/// In double, from the vertices as stored.
+double areaOf(const TriangleVertices& triangle);
+
+}  // namespace parhelion

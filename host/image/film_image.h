@@ -1,0 +1,22 @@
+#pragma once
+
+#include "base/film.h"
+#include "image/image.h"
+
+namespace parhelion {
+
+/// Resolves a film into the channels of an EXR; the arithmetic is in double, rounded once to float32.
+///
+/// - R, G, B: mean radiance.
+/// - variance.R, .G, .B: estimated variance of that mean, (E[x^2] - mean^2) / (n - 1), never negative; absent for one
+///   sample a pixel. The float32 squares limit it to about 2^-24 mean^2 / (n - 1): a constant pixel may show that much.
+/// - albedo.R, .G, .B, normal.X, .Y, .Z: means over the feature samples, misses counted as 0.
+/// - depth.Z: mean distance of the feature samples that hit a surface, scene units; 0 where none did.
+/// - sampleCount.Y: samples per pixel (float32: exact up to 2^24).
+///
+/// The image covers film.crop. When that is not the whole film, integer attributes cropX, cropY, filmWidth and
+/// filmHeight place it. Feature channels are absent when the film has no feature samples.
+/// @throws RuntimeFailure if the film holds no samples.
+Image toImage(const Film& film);
+
+}  // namespace parhelion

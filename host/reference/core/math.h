@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <glm/glm.hpp>
+
+namespace parhelion::reference {
+
+template <typename Real>
+using Vec2 = glm::vec<2, Real>;
+template <typename Real>
+using Vec3 = glm::vec<3, Real>;
+
+template <typename Real>
+inline constexpr Real kPi = std::numbers::pi_v<Real>;
+template <typename Real>
+inline constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+
+/// a / b, or 0 when b is 0.
+template <typename Real>
+Real safeDivide(Real a, Real b) {
+    return b == 0 ? Real(0) : a / b;
+}
+
+template <typename Real>
+Real maxComponent(const Vec3<Real>& v) {
+    return std::max(v.x, std::max(v.y, v.z));
+}
+
+/// log(x) for x > 0.
+template <typename Real>
+Real logPositive(Real x) {
+    return std::log(x);
+}
+
+/// exp(-x) for x >= 0.
+template <typename Real>
+Real expNegative(Real x) {
+    return std::exp(-x);
+}
+
+/// (sin, cos) of 2 pi u, u in [0, 1).
+template <typename Real>
+Vec2<Real> sinCosTurn(Real u) {
+    const Real angle = 2 * kPi<Real> * u;
+    return {std::sin(angle), std::cos(angle)};
+}
+
+}  // namespace parhelion::reference

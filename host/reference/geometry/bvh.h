@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstdint>
+
+#include "reference/geometry/triangle.h"
+#include "reference/scene_view.h"
+
+namespace parhelion::reference {
+
+/// The ray's part of the slab test.
+template <typename Real>
+struct BoundsRay {
+    Vec3<Real> origin, inverse;
+};
+
+template <typename Real>
+BoundsRay<Real> prepareBoundsRay(const Vec3<Real>& origin, const Vec3<Real>& direction) {
+    Vec3<Real> inverse;
+    // The largest finite number for 1 / 0: a plane through the origin gives 0, not 0 * infinity.
+    for (int i = 0; i < 3; ++i)
+        inverse[i] = direction[i] == 0 ? std::numeric_limits<Real>::max() : 1 / direction[i];
+    return {origin, inverse};
+}
+
+/// What distances to bounds are widened by: more than the slab test rounds.
+///
+/// Source: Ize 2013, "Robust BVH Ray Traversal", JCGT 2(2).
+template <typename Real>
+inline constexpr Real kBoundsMargin = 1 + 8 * std::numeric_limits<Real>::epsilon();
+
+/// Distance at which the ray enters the bounds, or infinity when it misses [tMin, tMax] of them.
+/// No triangle within is missed.
+template <typename Real>
+Real enterBounds(const glm::vec4& low, const glm::vec4& high, const BoundsRay<Real>& ray, Real tMin, Real tMax) {
+    const Vec3<Real> a = (Vec3<Real>(low) - ray.origin) * ray.inverse;
+    const Vec3<Real> b = (Vec3<Real>(high) - ray.origin) * ray.inverse;
+    const Vec3<Real> near = glm::min(a, b), far = glm::max(a, b);
+    const Real enter = std::max(std::max(near.x, near.y), near.z);
+    const Real leave = std::min(std::min(far.x, far.y), far.z) * kBoundsMargin<Real>;
+    const bool missed = enter > leave || leave < tMin || enter > tMax * kBoundsMargin<Real>;
+    return missed ? kInfinity<Real> : enter;
+}
+
+/// Visits every triangle whose leaf the ray meets in [tMin, limit()], near leaves first.
+///
+/// @param limit   () -> Real: distance beyond which nothing matters; read again as it shrinks.
+/// @param accept  (triangle, TriangleHit): called for each hit, in any order, perhaps twice.
+template <typename Real, typename Limit, typename Accept>
+void traverse(const SceneView<Real>& scene, const Vec3<Real>& origin, const Vec3<Real>& direction, Real tMin,
+              Limit&& limit, Accept&& accept) {
+    struct Pending {
+        std::int32_t node;
+        Real enter;
+    };
+    const TriangleRay<Real> triangleRay = prepareTriangleRay(origin, direction);
+    const BoundsRay<Real> boundsRay = prepareBoundsRay(origin, direction);
+    std::array<Pending, shared::kBvhStackSize> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {0, tMin};
+    while (depth > 0) {
+        const Pending next = stack[--depth];
+        if (next.enter > limit() * kBoundsMargin<Real>) continue;
+        if (next.node < 0) {
+            const auto leaf = static_cast<std::uint32_t>(~next.node);
+            for (std::uint32_t i = leaf >> 3, end = i + (leaf & 7u); i < end; ++i)
+                if (const auto hit =
+                        intersectTriangle(triangleRay, scene.vertex(i, 0), scene.vertex(i, 1), scene.vertex(i, 2)))
+                    accept(i, *hit);
+            continue;
+        }
+        const glm::vec4* texels = &scene.source.bvhNodes[std::size_t(next.node) * shared::kBvhNodeTexels];
+        Pending near{glm::floatBitsToInt(texels[0].w), enterBounds(texels[0], texels[1], boundsRay, tMin, limit())};
+        Pending far{glm::floatBitsToInt(texels[2].w), enterBounds(texels[2], texels[3], boundsRay, tMin, limit())};
+        if (far.enter < near.enter) std::swap(near, far);
+        assert(depth + 2 <= stack.size());
+        if (far.enter < kInfinity<Real>) stack[depth++] = far;
+        if (near.enter < kInfinity<Real>) stack[depth++] = near;
+    }
+}
+
+}  // namespace parhelion::reference

@@ -1,0 +1,224 @@
+#pragma once
+
+#include "reference/geometry/bvh.h"
+#include "reference/geometry/primitives.h"
+
+namespace parhelion::reference {
+
+/// A ray keeps origin and direction while it crosses null boundaries: only tMin moves.
+template <typename Real>
+struct Ray {
+    Vec3<Real> origin, direction;  ///< direction: unit
+    Real tMin = 0;
+    Real tMax = kInfinity<Real>;
+    std::uint32_t last = kNone;    ///< primitive the ray starts on
+    std::uint32_t target = kNone;  ///< primitive to ignore: the light a shadow ray goes to
+    std::uint32_t inside = kNone;  ///< shape whose interior surrounds the ray at tMin
+    std::uint32_t stalls = 0;      ///< boundaries crossed since the ray last moved
+};
+
+template <typename Real>
+struct Hit {
+    Real t = kInfinity<Real>;
+    std::uint32_t primitive = kNone;
+    std::uint32_t shape = kNone;
+    Vec2<Real> barycentric{0};  ///< of a triangle's second and third vertex
+    bool isNull = false;
+    bool exits = false;  ///< leaves the convex null shape the ray is inside
+
+    bool found() const { return primitive != kNone; }
+};
+
+/// The surface at a hit. Normals are unit and on the side that flip_normals says.
+template <typename Real>
+struct Surface {
+    Vec3<Real> position, geometricNormal, shadingNormal;
+    Real rounding;  ///< a bound on how far `position` lies off a triangle along its normal; 0 on other shapes
+};
+
+/// The closest candidate so far. Equal distances: an exit first, then the lowest primitive id (numerics H46).
+template <typename Real>
+class ClosestHit {
+public:
+    explicit ClosestHit(Real tMax) : tMax_(tMax) { hit_.t = tMax; }
+
+    Real limit() const { return hit_.t; }
+    Hit<Real> result() const { return hit_.found() ? hit_ : Hit<Real>{}; }
+
+    void offer(const Hit<Real>& candidate) {
+        if (!(candidate.t < tMax_) || candidate.t > hit_.t) return;
+        if (candidate.t == hit_.t) {
+            if (candidate.exits != hit_.exits ? hit_.exits : candidate.primitive >= hit_.primitive) return;
+        }
+        hit_ = candidate;
+    }
+
+private:
+    Real tMax_;
+    Hit<Real> hit_;
+};
+
+/// Whether `shape` is `inside` or surrounds it.
+template <typename Real>
+bool surrounds(const SceneView<Real>& scene, std::uint32_t shape, std::uint32_t inside) {
+    while (inside != kNone && inside != shape) inside = scene.source.shapes[inside].exterior;
+    return inside != kNone;
+}
+
+/// What a convex shape offers to the closest hit.
+///
+/// @param interval  where the ray's line is inside the shape, or nothing.
+template <typename Real>
+void offerConvex(const SceneView<Real>& scene, const Ray<Real>& ray, Hit<Real> hit,
+                 const std::optional<Interval<Real>>& interval, ClosestHit<Real>& closest) {
+    if (hit.primitive == ray.target) return;
+    if (hit.isNull && hit.shape == ray.inside) {
+        hit.t = interval ? std::max(interval->t1, ray.tMin) : ray.tMin;
+        hit.exits = true;
+        closest.offer(hit);
+        return;
+    }
+    if (!interval || !(interval->t0 + interval->t1 > 2 * ray.tMin)) return;
+    if (hit.isNull) {
+        if (!(interval->t1 > ray.tMin) || surrounds(scene, hit.shape, ray.inside)) return;
+        hit.t = std::max(interval->t0, ray.tMin);
+    } else {
+        hit.t = hit.primitive != ray.last && interval->t0 >= ray.tMin ? interval->t0 : interval->t1;
+    }
+    closest.offer(hit);
+}
+
+/// A flat primitive at distance t: an opaque one may be met where the ray has just left a medium.
+template <typename Real>
+void offerFlat(const Ray<Real>& ray, const Hit<Real>& hit, ClosestHit<Real>& closest) {
+    if (hit.primitive == ray.last || hit.primitive == ray.target) return;
+    if (hit.isNull ? hit.t > ray.tMin : hit.t >= ray.tMin) closest.offer(hit);
+}
+
+/// The first surface or null boundary from ray.tMin on and before ray.tMax.
+template <typename Real>
+Hit<Real> closestHit(const SceneView<Real>& scene, const Ray<Real>& ray) {
+    ClosestHit<Real> closest(ray.tMax);
+    Hit<Real> hit;
+    hit.primitive = 0;
+    for (const Quad<Real>& quad : scene.quads) {
+        hit.shape = quad.shape;
+        hit.isNull = quad.isNull;
+        if (const auto t = intersectQuad(quad, ray.origin, ray.direction)) {
+            hit.t = *t;
+            offerFlat(ray, hit, closest);
+        }
+        ++hit.primitive;
+    }
+    for (const Sphere<Real>& sphere : scene.spheres) {
+        hit.shape = sphere.shape;
+        hit.isNull = sphere.isNull;
+        offerConvex(scene, ray, hit, sphereInterval(sphere, ray.origin, ray.direction), closest);
+        ++hit.primitive;
+    }
+    for (const Box<Real>& box : scene.boxes) {
+        hit.shape = box.shape;
+        hit.isNull = box.isNull;
+        offerConvex(scene, ray, hit, boxInterval(box, ray.origin, ray.direction), closest);
+        ++hit.primitive;
+    }
+    if (scene.constants.triangleCount == 0) return closest.result();
+    const auto accept = [&](std::uint32_t triangle, const TriangleHit<Real>& found) {
+        if (found.t > closest.limit()) return;
+        hit.t = found.t;
+        hit.primitive = scene.firstTriangle + triangle;
+        hit.shape = scene.triangleShape(triangle);
+        hit.isNull = scene.isNull(hit.shape);
+        hit.barycentric = {found.b1, found.b2};
+        offerFlat(ray, hit, closest);
+    };
+    traverse(scene, ray.origin, ray.direction, ray.tMin, [&] { return closest.limit(); }, accept);
+    return closest.result();
+}
+
+/// Unit normal of a triangle counted from the first, on the side that flip_normals says.
+template <typename Real>
+Vec3<Real> triangleNormal(const SceneView<Real>& scene, std::uint32_t triangle) {
+    const Vec3<Real> v0 = scene.vertex(triangle, 0);
+    const Vec3<Real> n = glm::normalize(glm::cross(scene.vertex(triangle, 1) - v0, scene.vertex(triangle, 2) - v0));
+    return scene.isFlipped(scene.triangleShape(triangle)) ? -n : n;
+}
+
+/// Unit normal of a quad or triangle.
+template <typename Real>
+Vec3<Real> flatNormal(const SceneView<Real>& scene, std::uint32_t primitive) {
+    if (primitive < scene.firstSphere) return scene.quads[primitive].normal;
+    return triangleNormal(scene, primitive - scene.firstTriangle);
+}
+
+/// Position, normals and rounding of a point of a triangle.
+///
+/// Source of the bound: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", 4th ed., section 6.8.5.
+template <typename Real>
+Surface<Real> triangleSurface(const SceneView<Real>& scene, std::uint32_t triangle, const Vec2<Real>& barycentric) {
+    constexpr Real kUnit = std::numeric_limits<Real>::epsilon() / 2;
+    constexpr Real kGamma7 = 7 * kUnit / (1 - 7 * kUnit);
+    const Vec3<Real> b{1 - barycentric.x - barycentric.y, barycentric.x, barycentric.y};
+    const Vec3<Real> p0 = b.x * scene.vertex(triangle, 0);
+    const Vec3<Real> p1 = b.y * scene.vertex(triangle, 1);
+    const Vec3<Real> p2 = b.z * scene.vertex(triangle, 2);
+    Surface<Real> surface;
+    surface.position = p0 + p1 + p2;
+    surface.geometricNormal = triangleNormal(scene, triangle);
+    surface.shadingNormal = surface.geometricNormal;
+    const Vec3<Real> error = kGamma7 * (glm::abs(p0) + glm::abs(p1) + glm::abs(p2));
+    surface.rounding = glm::dot(error, glm::abs(surface.geometricNormal));
+    if (scene.source.vertexNormals.empty()) return surface;
+    const glm::vec4* normals = &scene.source.vertexNormals[std::size_t(triangle) * 3];
+    const Vec3<Real> n =
+        b.x * Vec3<Real>(normals[0]) + b.y * Vec3<Real>(normals[1]) + b.z * Vec3<Real>(normals[2]);
+    const Real length = glm::length(n);
+    if (length > 0) surface.shadingNormal = (scene.isFlipped(scene.triangleShape(triangle)) ? -n : n) / length;
+    return surface;
+}
+
+/// Outward unit normal of a box at a point of its surface.
+template <typename Real>
+Vec3<Real> boxNormal(const Box<Real>& box, const Vec3<Real>& position) {
+    const Vec3<Real> local = box.localFromWorld.point(position);
+    const Vec3<Real> a = glm::abs(local);
+    const int axis = a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2);
+    const glm::mat<3, 3, Real>& m = box.localFromWorld.linear;
+    const Vec3<Real> n = glm::normalize(Vec3<Real>(m[0][axis], m[1][axis], m[2][axis]));
+    return local[axis] < 0 ? -n : n;
+}
+
+template <typename Real>
+Surface<Real> surfaceAt(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit) {
+    if (hit.primitive >= scene.firstTriangle)
+        return triangleSurface(scene, hit.primitive - scene.firstTriangle, hit.barycentric);
+    const Vec3<Real> position = ray.origin + hit.t * ray.direction;
+    if (hit.primitive < scene.firstSphere) {
+        const Vec3<Real>& n = scene.quads[hit.primitive].normal;
+        return {position, n, n, 0};
+    }
+    Vec3<Real> n = hit.primitive < scene.firstBox
+                       ? glm::normalize(position - scene.spheres[hit.primitive - scene.firstSphere].center)
+                       : boxNormal(scene.boxes[hit.primitive - scene.firstBox], position);
+    if (scene.isFlipped(hit.shape)) n = -n;
+    return {position, n, n, 0};
+}
+
+/// Takes the ray across the null boundary it has hit.
+///
+/// @return false when the ray no longer gets anywhere: it alternates between null shapes that overlap.
+template <typename Real>
+bool crossBoundary(const SceneView<Real>& scene, const Hit<Real>& hit, Ray<Real>& ray) {
+    constexpr std::uint32_t kMaxStalls = 64;
+    const bool isConvex = hit.primitive >= scene.firstSphere && hit.primitive < scene.firstTriangle;
+    const bool enters = isConvex ? !hit.exits : glm::dot(ray.direction, flatNormal(scene, hit.primitive)) < 0;
+    if (enters)
+        ray.inside = hit.shape;
+    else if (ray.inside == hit.shape)
+        ray.inside = scene.source.shapes[hit.shape].exterior;
+    ray.stalls = hit.t > ray.tMin ? 0 : ray.stalls + 1;
+    ray.tMin = hit.t;
+    return ray.stalls < kMaxStalls;
+}
+
+}  // namespace parhelion::reference

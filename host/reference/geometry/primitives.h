@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+
+#include "reference/scene_view.h"
+
+namespace parhelion::reference {
+
+/// Where a line is inside a convex shape.
+template <typename Real>
+struct Interval {
+    Real t0, t1;
+};
+
+/// Distance along the ray to the parallelogram, or nothing. May be negative.
+template <typename Real>
+std::optional<Real> intersectQuad(const Quad<Real>& quad, const Vec3<Real>& origin, const Vec3<Real>& direction) {
+    const Vec3<Real> toCorner = quad.corner - origin;
+    const Real t = glm::dot(quad.normal, toCorner) / glm::dot(quad.normal, direction);
+    const Vec3<Real> p = t * direction - toCorner;
+    const Real u = glm::dot(quad.uFromWorld, p);
+    const Real v = glm::dot(quad.vFromWorld, p);
+    // A parallel ray has t infinite or NaN and fails the comparisons.
+    if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1)) return std::nullopt;
+    return t;
+}
+
+/// The discriminant from the perpendicular component: nothing cancels for far spheres.
+///
+/// Source: Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems ch. 7.
+template <typename Real>
+std::optional<Interval<Real>> sphereInterval(const Sphere<Real>& sphere, const Vec3<Real>& origin,
+                                             const Vec3<Real>& direction) {
+    const Vec3<Real> toCenter = sphere.center - origin;
+    const Real middle = glm::dot(toCenter, direction);
+    const Vec3<Real> perpendicular = toCenter - middle * direction;
+    const Real discriminant = sphere.radius * sphere.radius - glm::dot(perpendicular, perpendicular);
+    if (!(discriminant >= 0)) return std::nullopt;
+    const Real half = std::sqrt(discriminant);
+    return Interval<Real>{middle - half, middle + half};
+}
+
+/// Slabs in the box's own space. An axis the ray does not move along limits nothing, or everything (numerics H39).
+template <typename Real>
+std::optional<Interval<Real>> boxInterval(const Box<Real>& box, const Vec3<Real>& origin,
+                                          const Vec3<Real>& direction) {
+    const Vec3<Real> o = box.localFromWorld.point(origin);
+    const Vec3<Real> d = box.localFromWorld.vector(direction);
+    Interval<Real> interval{-kInfinity<Real>, kInfinity<Real>};
+    for (int i = 0; i < 3; ++i) {
+        if (d[i] == 0) {
+            if (std::abs(o[i]) > 1) return std::nullopt;
+            continue;
+        }
+        const Real inverse = 1 / d[i];
+        const Real a = (-1 - o[i]) * inverse, b = (1 - o[i]) * inverse;
+        interval.t0 = std::max(interval.t0, std::min(a, b));
+        interval.t1 = std::min(interval.t1, std::max(a, b));
+    }
+    if (interval.t1 < interval.t0) return std::nullopt;
+    return interval;
+}
+
+}  // namespace parhelion::reference

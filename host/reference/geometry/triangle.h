@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "reference/core/math.h"
+
+namespace parhelion::reference {
+
+/// The ray's part of the watertight test: the axis it mostly moves along becomes z, and a shear
+/// makes the ray that axis.
+template <typename Real>
+struct TriangleRay {
+    Vec3<Real> origin;
+    int kx, ky, kz;
+    Vec3<Real> shear;
+};
+
+template <typename Real>
+struct TriangleHit {
+    Real t;
+    Real b1, b2;  ///< barycentric coordinates of the second and third vertex
+};
+
+template <typename Real>
+TriangleRay<Real> prepareTriangleRay(const Vec3<Real>& origin, const Vec3<Real>& direction) {
+    const Vec3<Real> a = glm::abs(direction);
+    TriangleRay<Real> ray;
+    ray.origin = origin;
+    ray.kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+    ray.kx = (ray.kz + 1) % 3;
+    ray.ky = (ray.kx + 1) % 3;
+    if (direction[ray.kz] < 0) std::swap(ray.kx, ray.ky);
+    const Real invZ = 1 / direction[ray.kz];
+    ray.shear = {direction[ray.kx] * invZ, direction[ray.ky] * invZ, invZ};
+    return ray;
+}
+
+/// Watertight: a ray through a shared edge hits at least one of the two triangles (numerics H47). No culling.
+///
+/// Source: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1).
+template <typename Real>
+std::optional<TriangleHit<Real>> intersectTriangle(const TriangleRay<Real>& ray, const Vec3<Real>& v0,
+                                                   const Vec3<Real>& v1, const Vec3<Real>& v2) {
+    const Vec3<Real> a = v0 - ray.origin, b = v1 - ray.origin, c = v2 - ray.origin;
+    const Real ax = a[ray.kx] - ray.shear.x * a[ray.kz], ay = a[ray.ky] - ray.shear.y * a[ray.kz];
+    const Real bx = b[ray.kx] - ray.shear.x * b[ray.kz], by = b[ray.ky] - ray.shear.y * b[ray.kz];
+    const Real cx = c[ray.kx] - ray.shear.x * c[ray.kz], cy = c[ray.ky] - ray.shear.y * c[ray.kz];
+    const Real u = cx * by - cy * bx;
+    const Real v = ax * cy - ay * cx;
+    const Real w = bx * ay - by * ax;
+    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return std::nullopt;
+    const Real det = u + v + w;
+    if (det == 0) return std::nullopt;
+    const Real scaledT = u * (ray.shear.z * a[ray.kz]) + v * (ray.shear.z * b[ray.kz]) + w * (ray.shear.z * c[ray.kz]);
+    return TriangleHit<Real>{scaledT / det, v / det, w / det};
+}
+
+}  // namespace parhelion::reference

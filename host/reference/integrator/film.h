@@ -1,0 +1,41 @@
+#pragma once
+
+#include <type_traits>
+
+#include "reference/core/math.h"
+#include "reference/path_trace.h"
+
+namespace parhelion::reference {
+
+/// Adds to a sum kept as high + low: compensated in float, exact to double otherwise (numerics H77).
+///
+/// Source: Kahan 1965, "Further Remarks on Reducing Truncation Errors".
+template <typename Real>
+void addCompensated(float& high, float& low, Real value) {
+    if constexpr (std::is_same_v<Real, float>) {
+        const float y = value + low;
+        const float sum = high + y;
+        low = y - (sum - high);
+        high = sum;
+    } else {
+        const Real sum = Real(high) + Real(low) + value;
+        high = float(sum);
+        low = float(sum - Real(high));
+    }
+}
+
+/// Adds one sample to a pixel. A non-finite sample counts as zero; it and negative ones are counted.
+template <typename Real>
+void accumulate(shared::FilmPixel& pixel, Vec3<Real> radiance, Counters& counters) {
+    if (!std::isfinite(radiance.x + radiance.y + radiance.z)) {
+        ++counters[shared::kCounterNonFinite];
+        radiance = Vec3<Real>(0);
+    }
+    if (radiance.x < 0 || radiance.y < 0 || radiance.z < 0) ++counters[shared::kCounterNegative];
+    for (int c = 0; c < 3; ++c) {
+        addCompensated(pixel.sumHigh[c], pixel.sumLow[c], radiance[c]);
+        addCompensated(pixel.squareHigh[c], pixel.squareLow[c], radiance[c] * radiance[c]);
+    }
+}
+
+}  // namespace parhelion::reference

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "reference/scene_view.h"
+
+namespace parhelion::reference {
+
+/// A ray on its way through the majorant cells of a medium. Lengths along the ray are the ray's own t.
+template <typename Real>
+struct CellWalk {
+    Vec3<Real> origin, direction, inverse;  ///< in voxel units; direction not unit
+    Real t;
+    glm::ivec3 cell;
+    std::size_t index;   ///< of the cell, x fastest
+    Vec3<Real> planes;   ///< t of the next plane along each axis; infinite where the grid ends
+    Real bound;          ///< density bound of the cell
+};
+
+template <typename Real>
+void loadCell(const Medium<Real>& medium, CellWalk<Real>& walk) {
+    walk.index = (std::size_t(walk.cell.z) * medium.cells.y + walk.cell.y) * medium.cells.x + walk.cell.x;
+    walk.bound = Real(medium.majorants[walk.index]);
+}
+
+/// t of the next plane of one axis, always from the integer cell, so that no error builds up (numerics H26).
+/// Infinite where the ray does not move (H27) or would leave the grid: border values extend outwards.
+template <typename Real>
+Real planeDistance(const Medium<Real>& medium, const CellWalk<Real>& walk, int axis) {
+    const Real d = walk.direction[axis];
+    const int next = walk.cell[axis] + (d > 0 ? 1 : -1);
+    if (d == 0 || next < 0 || next >= medium.cells[axis]) return kInfinity<Real>;
+    const int plane = int(shared::kVoxelsPerCell) * (walk.cell[axis] + (d > 0 ? 1 : 0));
+    return (Real(plane) - walk.origin[axis]) * walk.inverse[axis];
+}
+
+template <typename Real>
+void planeDistances(const Medium<Real>& medium, CellWalk<Real>& walk) {
+    for (int axis = 0; axis < 3; ++axis) walk.planes[axis] = planeDistance(medium, walk, axis);
+}
+
+/// The walk at distance t of a world-space ray.
+template <typename Real>
+CellWalk<Real> startCell(const Medium<Real>& medium, const Vec3<Real>& origin, const Vec3<Real>& direction, Real t) {
+    CellWalk<Real> walk;
+    walk.origin = medium.gridFromWorld.point(origin);
+    walk.direction = medium.gridFromWorld.vector(direction);
+    walk.inverse = Real(1) / walk.direction;
+    walk.t = t;
+    const Vec3<Real> cell = glm::floor((walk.origin + t * walk.direction) / Real(shared::kVoxelsPerCell));
+    walk.cell = glm::ivec3(glm::clamp(cell, Vec3<Real>(0), Vec3<Real>(medium.cells - 1)));
+    loadCell(medium, walk);
+    planeDistances(medium, walk);
+    return walk;
+}
+
+/// The axis whose plane comes first; x before y before z where they meet.
+template <typename Real>
+int nearestAxis(const CellWalk<Real>& walk) {
+    const Vec3<Real>& t = walk.planes;
+    if (t.x <= t.y && t.x <= t.z) return 0;
+    return t.y <= t.z ? 1 : 2;
+}
+
+/// Steps into the neighbour along an axis whose plane is finite.
+template <typename Real>
+void nextCell(const Medium<Real>& medium, CellWalk<Real>& walk, int axis) {
+    walk.cell[axis] += walk.direction[axis] > 0 ? 1 : -1;
+    walk.planes[axis] = planeDistance(medium, walk, axis);
+    loadCell(medium, walk);
+}
+
+}  // namespace parhelion::reference

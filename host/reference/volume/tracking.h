@@ -1,0 +1,187 @@
+#pragma once
+
+#include <optional>
+
+#include "compile/compiled_scene.h"
+#include "reference/geometry/intersection.h"
+#include "reference/path_trace.h"
+#include "reference/sampling/sampler.h"
+#include "reference/volume/density.h"
+#include "reference/volume/majorant.h"
+
+namespace parhelion::reference {
+
+/// What all parts of a path share.
+template <typename Real, typename Trace>
+struct PathContext {
+    const SceneView<Real>& scene;
+    const Quality& quality;
+    glm::uvec2 key;
+    int hero;  ///< channel that chromatic collisions are decided by
+    Counters& counters;
+    Trace& trace;
+};
+
+/// The optical depth left to a ray's next tentative collision. Runs on across cells, boundaries and media, so that
+/// a boundary costs neither a draw nor a logarithm.
+template <typename Real>
+struct Residual {
+    Real depth;
+    std::uint32_t index = 0;  ///< tentative collisions of this ray so far
+
+    void spend(Real opticalDepth) { depth = std::max(Real(0), depth - opticalDepth); }
+    void renew(const glm::uvec4& words) {
+        depth = exponential<Real>(words.z, words.w >> 8);
+        ++index;
+    }
+};
+
+/// Throughput, and how much likelier each channel was than the hero to sample the path (1 for grey paths).
+///
+/// Source: Miller, Georgiev, Jarosz 2019, "A null-scattering path integral formulation of light transport".
+template <typename Real>
+struct Throughput {
+    Vec3<Real> beta{1};
+    Vec3<Real> r{1};
+
+    Real meanR() const { return (r.x + r.y + r.z) / 3; }
+    void scale(const Vec3<Real>& ratio) {
+        beta *= ratio;
+        r *= ratio;
+    }
+};
+
+/// Moves to the next tentative collision, or to tEnd.
+///
+/// @return whether there is a collision before tEnd; walk.t is where.
+template <typename Real>
+bool nextCollision(const Medium<Real>& medium, CellWalk<Real>& walk, Real tEnd, Residual<Real>& residual,
+                   Counters& counters) {
+    for (;;) {
+        ++counters[shared::kCounterSteps];
+        const int axis = nearestAxis(walk);
+        const Real te = std::max(walk.t, std::min(walk.planes[axis], tEnd));
+        const Real sigma = medium.sigmaMax * walk.bound;
+        const Real opticalDepth = sigma * (te - walk.t);
+        if (opticalDepth > residual.depth) {
+            walk.t = std::min(walk.t + residual.depth / sigma, te);
+            ++counters[shared::kCounterCollisions];
+            return true;
+        }
+        residual.spend(opticalDepth);
+        walk.t = te;
+        if (te >= tEnd) return false;
+        nextCell(medium, walk, axis);
+    }
+}
+
+/// Density at the walk's position, checked against the bound of its cell.
+template <typename Real, typename Trace>
+Real densityHere(const PathContext<Real, Trace>& path, const Medium<Real>& medium, const CellWalk<Real>& walk,
+                 const glm::uvec4& words) {
+    const Vec3<Real> position = walk.origin + walk.t * walk.direction;
+    const Real density = densityAt(medium, position, cornerOffsets<Real>(words), path.quality.stochasticFilter);
+    if (density > walk.bound) ++path.counters[shared::kCounterMajorantViolations];
+    return density;
+}
+
+/// Decides a tentative collision with probability q of the hero channel.
+///
+/// @param q  extinction / majorant per channel, in [0, 1].
+template <typename Real>
+bool decideChromatic(const Vec3<Real>& q, Real u, int hero, Throughput<Real>& throughput) {
+    const bool isReal = u < q[hero];
+    throughput.scale(isReal ? q / q[hero] : (Real(1) - q) / (1 - q[hero]));
+    return isReal;
+}
+
+template <typename Real, typename Trace>
+std::optional<Real> trackHomogeneousFlight(const PathContext<Real, Trace>& path, const Medium<Real>& medium, Real t,
+                                           Real tEnd, std::uint32_t vertex, Residual<Real>& residual,
+                                           Throughput<Real>& throughput) {
+    for (;;) {
+        ++path.counters[shared::kCounterSteps];
+        const Real collision = t + residual.depth / medium.sigmaMax;
+        if (!(collision < tEnd)) {
+            residual.spend(medium.sigmaMax * (tEnd - t));
+            return std::nullopt;
+        }
+        t = collision;
+        ++path.counters[shared::kCounterCollisions];
+        if (medium.grey) return t;
+        const glm::uvec4 words = draw(path.key, vertex, shared::kDrawFlight | residual.index);
+        residual.renew(words);
+        if (decideChromatic(medium.sigmaRatio, toUniform<Real>(words.x), path.hero, throughput)) return t;
+    }
+}
+
+/// Samples where a path scatters in one medium between ray.tMin and tEnd.
+///
+/// @param vertex  scatterings before.
+/// @return t of the real collision, or nothing when the path reaches tEnd.
+template <typename Real, typename Trace>
+std::optional<Real> trackFlight(const PathContext<Real, Trace>& path, const Medium<Real>& medium, const Ray<Real>& ray,
+                                Real tEnd, std::uint32_t vertex, Residual<Real>& residual,
+                                Throughput<Real>& throughput) {
+    if (medium.homogeneous) {
+        const auto t = trackHomogeneousFlight(path, medium, ray.tMin, tEnd, vertex, residual, throughput);
+        if (t) path.trace.add(PathEvent::Collision, 0);
+        return t;
+    }
+    CellWalk<Real> walk = startCell(medium, ray.origin, ray.direction, ray.tMin);
+    while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
+        const glm::uvec4 words = draw(path.key, vertex, shared::kDrawFlight | residual.index);
+        const Real density = densityHere(path, medium, walk, words);
+        const Real u = toUniform<Real>(words.x);
+        if constexpr (Trace::kIsOn) {
+            const double q = double(density) / double(walk.bound) * (medium.grey ? 1 : medium.sigmaRatio[path.hero]);
+            path.trace.add(Decision{Decision::Kind::Flight, vertex, residual.index, walk.index, double(u), q});
+        }
+        residual.renew(words);
+        const Vec3<Real> q = glm::min(Vec3<Real>(1), medium.sigmaRatio * (density / walk.bound));
+        const bool isReal =
+            medium.grey ? u * walk.bound < density : decideChromatic(q, u, path.hero, throughput);
+        if (!isReal) continue;
+        path.trace.add(PathEvent::Collision, walk.index);
+        return walk.t;
+    }
+    return std::nullopt;
+}
+
+/// Attenuates a shadow ray by one medium between ray.tMin and tEnd: ratio tracking that turns into delta tracking
+/// as the weight falls below the threshold.
+///
+/// @param vertex     scatterings so far; chooses the draws.
+/// @param threshold  largest weight that roulette restores survivors to, in [0, 1].
+/// @param weight     transmittance estimate so far, per channel.
+/// @return whether the ray is alive.
+template <typename Real, typename Trace>
+bool trackShadow(const PathContext<Real, Trace>& path, const Medium<Real>& medium, const Ray<Real>& ray, Real tEnd,
+                 std::uint32_t vertex, Real threshold, Residual<Real>& residual, Vec3<Real>& weight) {
+    if (medium.homogeneous) {
+        ++path.counters[shared::kCounterSteps];
+        const Vec3<Real> depth = medium.sigmaMax * medium.sigmaRatio * (tEnd - ray.tMin);
+        weight *= Vec3<Real>(expNegative(depth.x), expNegative(depth.y), expNegative(depth.z));
+        return maxComponent(weight) > 0;
+    }
+    CellWalk<Real> walk = startCell(medium, ray.origin, ray.direction, ray.tMin);
+    while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
+        const glm::uvec4 words = draw(path.key, vertex, shared::kDrawShadow | residual.index);
+        const Real density = densityHere(path, medium, walk, words);
+        weight *= glm::max(Vec3<Real>(0), Real(1) - medium.sigmaRatio * (density / walk.bound));
+        path.trace.add(PathEvent::ShadowCollision, walk.index);
+        const Real largest = maxComponent(weight);
+        if (largest < threshold) {
+            const Real u = toUniform<Real>(words.x);
+            if constexpr (Trace::kIsOn)
+                path.trace.add(Decision{Decision::Kind::ShadowRoulette, vertex, residual.index, walk.index, double(u),
+                                        double(largest) / double(threshold)});
+            if (!(u * threshold < largest)) return false;
+            weight *= threshold / largest;
+        }
+        residual.renew(words);
+    }
+    return true;
+}
+
+}  // namespace parhelion::reference

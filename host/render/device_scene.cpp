@@ -1,0 +1,39 @@
+#include "render/device_scene.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace parhelion::render {
+
+template <typename T>
+void DeviceScene::addTexels(gpu::Device& device, std::uint32_t binding, const std::vector<T>& values,
+                            VkFormat format) {
+    // A binding that the scene leaves empty still needs a texel to point at.
+    gpu::Buffer buffer = device.createBuffer(std::max<std::size_t>(values.size() * sizeof(T), 16));
+    buffer.write(0, std::as_bytes(std::span(values)));
+    const VkBufferView view = buffer.texelView(format);
+    bindings_.push_back({.index = binding, .view = view});
+    buffers_.push_back(std::move(buffer));
+}
+
+DeviceScene::DeviceScene(gpu::Device& device, const CompiledScene& scene) {
+    gpu::Buffer constants = device.createBuffer(sizeof(shared::SceneConstants));
+    std::memcpy(constants.data(), &scene.constants, sizeof(shared::SceneConstants));
+    bindings_.push_back({.index = 0, .buffer = constants.handle()});
+    buffers_.push_back(std::move(constants));
+
+    const VkFormat rgba = VK_FORMAT_R32G32B32A32_SFLOAT, r = VK_FORMAT_R32_SFLOAT, u = VK_FORMAT_R32_UINT;
+    addTexels(device, 1, scene.shapes, rgba);
+    addTexels(device, 2, scene.bvhNodes, rgba);
+    addTexels(device, 3, scene.triangles, rgba);
+    addTexels(device, 4, scene.vertexNormals, rgba);
+    addTexels(device, 5, scene.density, r);
+    addTexels(device, 6, scene.brickTable, u);
+    addTexels(device, 7, scene.majorants, r);
+    addTexels(device, 8, scene.albedoVoxels, rgba);
+    addTexels(device, 9, scene.lightTriangleCdf, r);
+    addTexels(device, 10, scene.lightTriangles, u);
+    addTexels(device, 11, scene.filterTable, r);
+}
+
+}  // namespace parhelion::render

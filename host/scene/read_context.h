@@ -1,0 +1,28 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "scene/property_reader.h"
+#include "scene/scene_description.h"
+
+namespace parhelion {
+
+/// What the readers of the parts share while one scene is read.
+struct ReadContext {
+    const SceneTree& tree;
+    const SceneReadOptions& options;
+    SceneDescription& scene;
+    std::map<const XmlElement*, std::size_t> mediumIndices;  ///< of the media read so far
+    std::set<const XmlElement*> volumesRead;
+
+    /// Tells the user of something that was accepted but has no effect.
+    void note(const SourceLocation& where, std::string_view text) {
+        scene.notes.push_back(fmt::format("{}: {}", where.text(), text));
+    }
+};
+
+}  // namespace parhelion

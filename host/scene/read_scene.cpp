@@ -1,0 +1,98 @@
+#include "scene/read_bsdf.h"
+#include "scene/read_emitters.h"
+#include "scene/read_integrator.h"
+#include "scene/read_media.h"
+#include "scene/read_sensor.h"
+#include "scene/read_shapes.h"
+#include "scene/read_volumes.h"
+#include "scene/scene_description.h"
+#include "scene/scene_tree.h"
+
+namespace parhelion {
+namespace {
+
+/// Remembers the one element of a kind that a scene must have.
+class OnlyElement {
+public:
+    explicit OnlyElement(std::string tag) : tag_(std::move(tag)) {}
+
+    void set(const XmlElement& element) {
+        if (element_)
+            throw InputError(element.where, fmt::format("a scene has only one <{}>; the first is at {}", tag_,
+                                                        element_->where.text()));
+        element_ = &element;
+    }
+
+    const XmlElement& get(const XmlElement& root) const {
+        if (!element_) throw InputError(root.where, fmt::format("the scene needs one <{}>", tag_));
+        return *element_;
+    }
+
+private:
+    std::string tag_;
+    const XmlElement* element_ = nullptr;
+};
+
+[[noreturn]] void rejectAtSceneLevel(const XmlElement& element) {
+    const XmlAttribute& type = element.require("type");
+    if (element.tag == "texture")
+        throw InputError(type.where, fmt::format("texture plugin \"{}\" is not supported; reflectance takes <rgb>, "
+                                                 "<float> or <spectrum>",
+                                                 type.value));
+    throw InputError(element.where,
+                     fmt::format("<{}> must be nested: film and sampler in <sensor>, rfilter in <film>", element.tag));
+}
+
+/// Reads the objects at scene level that have no effect by themselves. What shapes refer to is read there; the rest is
+/// checked all the same, so that no mistake goes unnoticed. Media come before volumes, which they refer to.
+void checkSharedObjects(ReadContext& context, const std::vector<const XmlElement*>& elements) {
+    for (const XmlElement* element : elements) {
+        if (element->tag == "bsdf") {
+            readBsdf(context, *element);
+        } else if (element->tag == "phase") {
+            readPhase(context, *element);
+        } else if (element->tag == "medium") {
+            if (context.mediumIndices.contains(element)) continue;
+            readMedium(context, *element);
+            context.note(element->where, "the medium is used by no shape");
+        } else if (element->tag != "volume") {
+            rejectAtSceneLevel(*element);
+        }
+    }
+    for (const XmlElement* element : elements)
+        if (element->tag == "volume" && !context.volumesRead.contains(element))
+            context.note(element->where, "the volume is used by no medium, and was not read");
+}
+
+void readObjects(ReadContext& context, const XmlElement& root) {
+    OnlyElement integrator("integrator"), sensor("sensor");
+    std::vector<const XmlElement*> shared;
+    for (const XmlElement& element : root.children) {
+        if (element.tag == "integrator")
+            integrator.set(element);
+        else if (element.tag == "sensor")
+            sensor.set(element);
+        else if (element.tag == "emitter")
+            readEmitter(context, element);
+        else if (element.tag == "shape")
+            readShape(context, element);
+        else
+            shared.push_back(&element);
+    }
+    checkSharedObjects(context, shared);
+    readIntegrator(context, integrator.get(root));
+    readSensor(context, sensor.get(root));
+}
+
+}  // namespace
+
+SceneDescription readScene(const std::filesystem::path& file, const SceneReadOptions& options) {
+    const SceneTree tree = SceneTree::load(file, options.defines);
+    SceneDescription scene;
+    scene.file = file;
+    ReadContext context{tree, options, scene, {}, {}};
+    readObjects(context, tree.root());
+    return scene;
+}
+
+}  // namespace parhelion

@@ -1,0 +1,122 @@
+#include "scene/read_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/attribute_values.h"
+#include "scene/read_film.h"
+#include "scene/transforms.h"
+
+namespace parhelion {
+namespace {
+
+const std::vector<std::string> kFovAxes{"x", "y", "diagonal", "smaller", "larger"};  // in the order of FovAxis
+
+double readFocalLength(const PropertyReader& reader, const XmlAttribute& value) {
+    std::string text = value.value;
+    if (text.ends_with("mm")) text.resize(text.size() - 2);
+    const double length = numberOrNan(text);
+    if (!kPositive.contains(length))
+        reader.fail(value.where, fmt::format("\"focal_length\" must be a length above 0 like \"50mm\"; got \"{:.40}\"",
+                                             value.value));
+    return length;
+}
+
+double readHorizontalFov(PropertyReader& reader, double aspect) {
+    const XmlAttribute* lens = reader.text("focal_length");
+    if (!reader.has("fov")) {
+        if (reader.has("fov_axis"))
+            reader.fail(reader.whereOf("fov_axis"), "\"fov_axis\" needs a \"fov\"; a focal length fixes the diagonal");
+        const double focalLength = lens ? readFocalLength(reader, *lens) : 50.0;
+        return horizontalFov(diagonalFovOfLens(focalLength), FovAxis::Diagonal, aspect);
+    }
+    if (lens) reader.fail(lens->where, "give either \"fov\" or \"focal_length\", not both");
+    constexpr NumberRange kFovRange{0.0, 180.0, true, true, "be in (0, 180) degrees"};
+    const double fov = reader.number("fov", 0.0, kFovRange);
+    const std::string axis = reader.choice("fov_axis", "x", kFovAxes);
+    return horizontalFov(fov, static_cast<FovAxis>(std::ranges::find(kFovAxes, axis) - kFovAxes.begin()), aspect);
+}
+
+glm::dmat4 readCameraTransform(PropertyReader& reader) {
+    const PropertyReader::Transform toWorld = reader.transform("to_world");
+    const Similarity similarity = similarityOf(toWorld.matrix);
+    constexpr double kScaleTolerance = 1e-3;  // Mitsuba's
+    if (!similarity.holds || std::abs(similarity.scale - 1.0) > kScaleTolerance)
+        reader.fail(toWorld.where, "\"to_world\" of a camera must not scale or shear");
+    return toWorld.matrix;
+}
+
+void readClipping(ReadContext& context, PropertyReader& reader) {
+    const double nearClip = reader.number("near_clip", 1e-2, kPositive);
+    const double farClip = reader.number("far_clip", 1e4, kPositive);
+    if (nearClip >= farClip)
+        reader.fail(reader.whereOf(reader.has("near_clip") ? "near_clip" : "far_clip"),
+                    fmt::format("\"near_clip\" must be less than \"far_clip\"; got {} and {}", nearClip, farClip));
+    for (const char* name : {"near_clip", "far_clip"})
+        if (reader.has(name))
+            context.note(reader.whereOf(name),
+                         fmt::format("\"{}\" has no effect: rays start at the camera and have no end", name));
+}
+
+void readSampler(ReadContext& context, const XmlElement& element) {
+    PropertyReader reader(context.tree, element);
+    const std::vector<std::string> supported{"independent", "stratified", "multijitter", "orthogonal", "ldsampler"};
+    if (std::ranges::find(supported, reader.type()) == supported.end()) reader.rejectType(supported);
+    constexpr std::int64_t kMostSamples = std::int64_t{1} << 40;
+    context.scene.sampleCount = static_cast<std::uint64_t>(reader.integer("sample_count", 4, 1, kMostSamples));
+    context.scene.seed = static_cast<std::uint32_t>(reader.integer("seed", 0, 0, 0xffffffffLL));
+    if (reader.type() != "independent") {
+        context.note(reader.where(), fmt::format("sampler \"{}\": our own sampler is used; the number of samples is "
+                                                 "taken as it is",
+                                                 reader.type()));
+        reader.boolean("jitter", true);
+        if (reader.type() == "orthogonal") reader.integer("strength", 2, 1, 16);
+    }
+    reader.finish();
+}
+
+}  // namespace
+
+double horizontalFov(double fovDegrees, FovAxis axis, double aspect) {
+    const double tangent = std::tan(glm::radians(fovDegrees) / 2.0);
+    const auto fromTangent = [](double t) { return glm::degrees(2.0 * std::atan(t)); };
+    switch (axis) {
+        case FovAxis::X:
+            return fovDegrees;
+        case FovAxis::Y:
+            return fromTangent(tangent * aspect);
+        case FovAxis::Diagonal:
+            return fromTangent(tangent / std::sqrt(1.0 + 1.0 / (aspect * aspect)));
+        case FovAxis::Smaller:
+            return horizontalFov(fovDegrees, aspect > 1.0 ? FovAxis::Y : FovAxis::X, aspect);
+        case FovAxis::Larger:
+            return horizontalFov(fovDegrees, aspect > 1.0 ? FovAxis::X : FovAxis::Y, aspect);
+    }
+    return fovDegrees;
+}
+
+double diagonalFovOfLens(double focalLength) {
+    return glm::degrees(2.0 * std::atan(std::hypot(36.0, 24.0) / (2.0 * focalLength)));
+}
+
+void readSensor(ReadContext& context, const XmlElement& element) {
+    PropertyReader reader(context.tree, element);
+    if (reader.type() != "perspective") reader.rejectType({"perspective"});
+    if (const auto film = reader.onlyNested("film")) readFilm(context, *film->element);
+    if (const auto sampler = reader.onlyNested("sampler")) readSampler(context, *sampler->element);
+    if (const auto medium = reader.onlyNested("medium"))
+        reader.fail(medium->where, "naming the camera's medium is not supported; it follows from the shapes around it");
+
+    CameraDescription& camera = context.scene.camera;
+    const glm::dvec2 size(context.scene.film.size);
+    camera.where = reader.where();
+    camera.toWorld = readCameraTransform(reader);
+    camera.fovXDegrees = readHorizontalFov(reader, size.x / size.y);
+    for (int axis = 0; axis < 2; ++axis)
+        camera.principalPointOffset[axis] =
+            reader.number(axis == 0 ? "principal_point_offset_x" : "principal_point_offset_y", 0.0, kAnyNumber);
+    readClipping(context, reader);
+    reader.finish();
+}
+
+}  // namespace parhelion

@@ -1,0 +1,81 @@
+#include "scene/read_shapes.h"
+
+#include "scene/obj_mesh.h"
+#include "scene/read_bsdf.h"
+#include "scene/read_emitters.h"
+#include "scene/read_media.h"
+#include "scene/transforms.h"
+
+namespace parhelion {
+namespace {
+
+void readObj(PropertyReader& reader, ShapeDescription& shape) {
+    shape.type = ShapeDescription::Type::Mesh;
+    shape.faceNormals = reader.boolean("face_normals", false);
+    ObjOptions options;
+    options.faceNormals = shape.faceNormals;
+    options.flipTexCoords = reader.boolean("flip_tex_coords", true);
+    options.toWorld = shape.toWorld;
+    const std::filesystem::path file = reader.file("filename");
+    shape.mesh = readObjMesh(file, reader.whereOf("filename"), options);
+}
+
+void readSphere(PropertyReader& reader, ShapeDescription& shape) {
+    shape.type = ShapeDescription::Type::Sphere;
+    shape.center = reader.triple("center", glm::dvec3(0.0));
+    shape.radius = reader.number("radius", 1.0, kPositive);
+    if (!similarityOf(shape.toWorld).holds)
+        reader.fail(reader.whereOf("to_world"), "\"to_world\" of a sphere must scale all axes alike and not shear");
+}
+
+void readGeometry(PropertyReader& reader, ShapeDescription& shape) {
+    shape.toWorld = reader.transform("to_world").matrix;
+    shape.flipNormals = reader.boolean("flip_normals", false);
+    if (reader.type() == "obj")
+        readObj(reader, shape);
+    else if (reader.type() == "sphere")
+        readSphere(reader, shape);
+    else if (reader.type() == "rectangle")
+        shape.type = ShapeDescription::Type::Rectangle;
+    else if (reader.type() == "cube")
+        shape.type = ShapeDescription::Type::Cube;
+    else
+        reader.rejectType({"obj", "rectangle", "cube", "sphere"});
+}
+
+void readMedia(ReadContext& context, PropertyReader& reader, ShapeDescription& shape) {
+    for (const PropertyReader::Nested& medium : reader.nested("medium")) {
+        if (medium.name != "interior" && medium.name != "exterior")
+            reader.fail(medium.where,
+                        fmt::format("a medium needs name=\"interior\" or \"exterior\"; got \"{}\"", medium.name));
+        const std::size_t index = mediumIndex(context, *medium.element);
+        (medium.name == "interior" ? shape.interior : shape.exterior) = index;
+    }
+}
+
+void readSurface(ReadContext& context, PropertyReader& reader, ShapeDescription& shape) {
+    if (const auto emitter = reader.onlyNested("emitter")) shape.radiance = readAreaEmitter(context, *emitter->element);
+    shape.bsdf.where = reader.where();
+    if (const auto bsdf = reader.onlyNested("bsdf"))
+        shape.bsdf = readBsdf(context, *bsdf->element);
+    else if (shape.radiance)
+        shape.bsdf.reflectance = glm::dvec3(0.0);  // as Mitsuba: a light without a BSDF is black
+    if (shape.bsdf.type == BsdfDescription::Type::Null && shape.radiance)
+        reader.fail(reader.where(), "an area emitter on a \"null\" BSDF is not supported; use a \"diffuse\" one");
+}
+
+}  // namespace
+
+void readShape(ReadContext& context, const XmlElement& element) {
+    PropertyReader reader(context.tree, element);
+    ShapeDescription shape;
+    shape.id = reader.id();
+    shape.where = reader.where();
+    readGeometry(reader, shape);
+    readMedia(context, reader, shape);
+    readSurface(context, reader, shape);
+    reader.finish();
+    context.scene.shapes.push_back(std::move(shape));
+}
+
+}  // namespace parhelion

@@ -1,0 +1,79 @@
+#include "scene/read_volumes.h"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scene/transforms.h"
+#include "volume/volume_file.h"
+
+namespace parhelion {
+namespace {
+
+void checkAlbedoGrid(const PropertyReader& reader, const Volume& volume) {
+    float largest = volume.density.maximum();
+    if (volume.channels == 3)
+        largest = volume.color.values.empty() ? 0.0f : *std::ranges::max_element(volume.color.values);
+    if (largest > 1.0f)
+        reader.fail(reader.whereOf("filename"),
+                    fmt::format("albedo must be in [0, 1] everywhere; {} has {}", volume.source, largest));
+}
+
+void checkChannels(const PropertyReader& reader, const Volume& volume, VolumeRole role) {
+    if (role == VolumeRole::Extinction && volume.channels != 1)
+        reader.fail(reader.whereOf("filename"),
+                    fmt::format("sigma_t must be a grid of one channel; {} has {} (coloured extinction can be given by "
+                                "sigma_t as <rgb>)",
+                                volume.source, volume.channels));
+}
+
+/// Grid-local [0, 1]^3 to the file's bounding box.
+glm::dmat4 boundsTransform(const PropertyReader& reader, const Volume& volume) {
+    const glm::dvec3 extent = volume.boundsMax - volume.boundsMin;
+    if (!(extent.x > 0.0 && extent.y > 0.0 && extent.z > 0.0))
+        reader.fail(reader.whereOf("use_grid_bbox"), fmt::format("the bounding box of {} is empty", volume.source));
+    return glm::scale(glm::translate(glm::dmat4(1.0), volume.boundsMin), extent);
+}
+
+GridPlacement readGrid(ReadContext& context, PropertyReader& reader, VolumeRole role) {
+    reader.choice("filter_type", "trilinear", {"trilinear"});
+    reader.choice("wrap_mode", "clamp", {"clamp"});
+    // Both concern Mitsuba's spectral upsampling and texture units: they change nothing about an RGB image.
+    reader.boolean("raw", false);
+    reader.boolean("accel", true);
+
+    GridPlacement placement;
+    placement.where = reader.where();
+    placement.toWorld = reader.transform("to_world").matrix;
+    VolumeReadOptions options;
+    options.memoryLimitBytes = context.options.volumeMemoryLimitBytes;
+    if (const XmlAttribute* name = reader.text("grid_name")) options.gridName = name->value;
+    const std::filesystem::path file = reader.file("filename");
+    const bool useBounds = reader.boolean("use_grid_bbox", false);
+    reader.finish();
+
+    placement.volume = readVolume(file, reader.whereOf("filename"), options);
+    checkChannels(reader, placement.volume, role);
+    if (role == VolumeRole::Albedo) checkAlbedoGrid(reader, placement.volume);
+    if (useBounds) placement.toWorld = placement.toWorld * boundsTransform(reader, placement.volume);
+    if (!placement.volume.note.empty()) context.note(reader.whereOf("filename"), placement.volume.note);
+    return placement;
+}
+
+}  // namespace
+
+ReadVolume readVolumePlugin(ReadContext& context, const XmlElement& element, VolumeRole role) {
+    context.volumesRead.insert(&element);
+    PropertyReader reader(context.tree, element);
+    ReadVolume result;
+    if (reader.type() == "gridvolume") {
+        result.grid = readGrid(context, reader, role);
+    } else if (reader.type() == "constvolume") {
+        result.constant = reader.color("value", 1.0, role == VolumeRole::Albedo ? kUnitInterval : kNonNegative);
+        reader.finish();
+    } else {
+        reader.rejectType({"gridvolume", "constvolume"});
+    }
+    return result;
+}
+
+}  // namespace parhelion

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/xml_document.h"
+
+namespace parhelion {
+
+/// A scene's elements after everything textual is done: includes are spliced in, $names replaced, names of versions
+/// before 2 upgraded, tags and attributes checked, ids indexed.
+class SceneTree {
+public:
+    /// @param defines  values that win over the scene's <default>s.
+    /// @throws InputError, located in the file that is wrong (which may be an included one).
+    static SceneTree load(const std::filesystem::path& file, const std::map<std::string, std::string>& defines);
+
+    SceneTree(SceneTree&&) = default;
+
+    const XmlElement& root() const { return root_; }
+
+    /// The object an `id` attribute refers to, aliases followed.
+    /// @throws InputError at the attribute if there is none.
+    const XmlElement& object(const XmlAttribute& id) const;
+
+    /// The file a value names: as it is if absolute, else searched in the main scene's folder, the <path> folders and
+    /// the folder of the file that says so.
+    /// @throws InputError at the attribute, listing the folders.
+    std::filesystem::path resolveFile(const XmlAttribute& name) const;
+
+private:
+    SceneTree() = default;
+    void indexObjects(const XmlElement& parent);
+    void addAliases(const std::vector<XmlElement>& aliases);
+
+    XmlElement root_;
+    std::vector<std::filesystem::path> folders_;
+    std::map<std::string, const XmlElement*, std::less<>> objects_;  ///< point into root_
+};
+
+}  // namespace parhelion

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene/xml_document.h"
+
+namespace parhelion {
+
+/// Rewrites a file's tree, root included, to today's names if its <scene version> is below 2: camelCase property
+/// names become snake_case, <lookAt> becomes <lookat>, diffuse_reflectance becomes reflectance.
+/// @throws InputError for a version that is malformed or above 3.
+void upgradeVersion(XmlElement& root);
+
+}  // namespace parhelion

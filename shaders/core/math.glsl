@@ -1,0 +1,55 @@
+// Safe operations, and the elementary functions that the software driver gets wrong.
+//
+// Errors are against double precision over the stated range, measured by tests/parity/math_test.
+#ifndef CORE_MATH_GLSL
+#define CORE_MATH_GLSL
+
+const float kPi = 3.14159265358979;
+const float kInvPi = 0.318309886183791;
+const float kInvFourPi = 0.0795774715459477;
+const float kInfinity = 1.0 / 0.0;
+
+// a / b, and 0 when b is 0.
+float safeDivide(float a, float b) { return b == 0.0 ? 0.0 : a / b; }
+
+float maxComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+// Natural logarithm of a positive normal number, within 1 ulp also next to 1, where the driver's
+// log loses every digit. Reduction and coefficients: FreeBSD msun e_logf (Sun Microsystems 1993).
+float logPositive(float x) {
+    int bits = floatBitsToInt(x);
+    int exponent = (bits - 0x3f3504f3) >> 23;  // x = 2^exponent * m, m in [sqrt(1/2), sqrt(2))
+    float f = intBitsToFloat(bits - (exponent << 23)) - 1.0;
+    float s = f / (2.0 + f);
+    float z = s * s;
+    float w = z * z;
+    float r = z * (0.66666662693 + w * 0.28498786688) + w * (0.40000972152 + w * 0.24279078841);
+    float half_square = 0.5 * f * f;
+    float k = float(exponent);
+    return s * (half_square + r) + k * 9.0580006145e-6 - half_square + f + k * 0.69313812256;
+}
+
+// exp(x) for x in [-87, 0], within 2 ulp; 0 below (e^-87 is 1.6e-38, the smallest normal number).
+float expNegative(float x) {
+    float n = roundEven(x * 1.44269504089);
+    float r = (x - n * 0.693359375) + n * 2.12194440e-4;  // Cody-Waite: n * 0.693359375 is exact
+    float p = 1.0 + r * (1.0 + r * (0.5 + r * (0.16666667163 + r * (4.1666645557e-2 +
+              r * (8.3333803341e-3 + r * 1.3888889225e-3)))));
+    float scale = intBitsToFloat((int(max(n, -126.0)) + 127) << 23);
+    return x < -87.0 ? 0.0 : p * scale;
+}
+
+// (sin, cos) of 2 pi u for u in [0, 1], within 1.5 ulp of the larger one. The reduction is exact:
+// 4 u and its distance from the nearest integer have no rounding.
+vec2 sinCosTurn(float u) {
+    float quarter = roundEven(4.0 * u);
+    float x = (4.0 * u - quarter) * 1.57079632679;
+    float z = x * x;
+    float s = x + x * z * (-0.16666666641 + z * (8.3333293855e-3 + z * (-1.9839334836e-4 + z * 2.7183114939e-6)));
+    float c = 1.0 + z * (-0.49999999725 + z * (4.1666623323e-2 + z * (-1.3886763774e-3 + z * 2.4390448796e-5)));
+    int q = int(quarter);
+    vec2 result = (q & 1) == 0 ? vec2(s, c) : vec2(c, s);
+    return vec2((q & 2) != 0 ? -result.x : result.x, ((q + 1) & 2) != 0 ? -result.y : result.y);
+}
+
+#endif

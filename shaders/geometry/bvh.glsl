@@ -1,0 +1,71 @@
+// Closest hit among the triangles: two children per node, nearer one first, a short private stack.
+#ifndef GEOMETRY_BVH_GLSL
+#define GEOMETRY_BVH_GLSL
+
+#include "core/math.glsl"
+#include "core/scene.glsl"
+#include "geometry/ray.glsl"
+#include "geometry/triangle.glsl"
+
+// Entry distance of a box given per axis plane distances, or kInfinity; the far side is widened by
+// three roundings so that no ray slips between touching boxes (Ize 2013, "Robust BVH Ray Traversal").
+float boxEntry(vec3 minimum, vec3 maximum, vec3 origin, vec3 inverse, float tMin, float tMax) {
+    vec3 a = (minimum - origin) * inverse;
+    vec3 b = (maximum - origin) * inverse;
+    // NaN (0 * inf: the ray runs in a face) must not prune: min and max keep the other operand.
+    vec3 entry = min(a, b), exit = max(a, b);
+    float t0 = max(max(entry.x, entry.y), max(entry.z, tMin));
+    float t1 = min(min(exit.x, exit.y), min(exit.z, tMax)) * 1.0000004;
+    return t0 <= t1 ? t0 : kInfinity;
+}
+
+void hitLeaf(inout Hit best, Ray ray, RayShear shear, int leaf, uint firstPrimitive) {
+    uint first = uint(leaf) >> 3u, count = uint(leaf) & 7u;
+    for (uint i = 0u; i < kMaxLeafTriangles; ++i) {
+        uint triangle = first + min(i, count - 1u);
+        int texel = int(kTriangleTexels * triangle);
+        vec3 hit = intersectTriangle(ray.origin, shear, texelFetch(triangleTexels, texel).xyz,
+                                     texelFetch(triangleTexels, texel + 1).xyz,
+                                     texelFetch(triangleTexels, texel + 2).xyz);
+        uint primitive = firstPrimitive + triangle;
+        if (hit.x > ray.tMin && primitive != ray.last && primitive != ray.target)
+            keepNearer(best, Hit(hit.x, primitive, hit.yz, false));
+    }
+}
+
+// A step costs up to kMaxLeafTriangles + 2 loop-back tests of the 65535 a subgroup has (README, "Loop budget").
+const uint kMaxTraversalSteps = 8192u;
+
+// Improves `best` by the nearest triangle. Adds the loop-back tests spent to `tests`; false when the
+// limit cut the traversal short.
+bool traverse(inout Hit best, Ray ray, uint firstPrimitive, bool active_, inout uint tests) {
+    RayShear shear = rayShear(ray.direction);
+    vec3 inverse = 1.0 / ray.direction;
+    int stack[kBvhStackSize];
+    int depth = 0;
+    int node = active_ ? 0 : kBvhEnd;
+    uint steps = 0u;
+    while (node != kBvhEnd && steps < kMaxTraversalSteps) {
+        ++steps;
+        int texel = int(kBvhNodeTexels) * max(node, 0);
+        vec4 min0 = texelFetch(bvhTexels, texel), max0 = texelFetch(bvhTexels, texel + 1);
+        vec4 min1 = texelFetch(bvhTexels, texel + 2), max1 = texelFetch(bvhTexels, texel + 3);
+        float t0 = boxEntry(min0.xyz, max0.xyz, ray.origin, inverse, ray.tMin, best.t);
+        float t1 = boxEntry(min1.xyz, max1.xyz, ray.origin, inverse, ray.tMin, best.t);
+        int child0 = floatBitsToInt(min0.w), child1 = floatBitsToInt(min1.w);
+        if (node >= 0) {
+            bool swap = t1 < t0;
+            int near = swap ? child1 : child0, far = swap ? child0 : child1;
+            if (max(t0, t1) < kInfinity) stack[depth++] = far;
+            node = min(t0, t1) < kInfinity ? near : (depth > 0 ? stack[--depth] : kBvhEnd);
+        }
+        if (node < 0) {
+            hitLeaf(best, ray, shear, ~node, firstPrimitive);
+            node = depth > 0 ? stack[--depth] : kBvhEnd;
+        }
+    }
+    tests += subgroupMax(steps) * (kMaxLeafTriangles + 2u) + 1u;
+    return node == kBvhEnd;
+}
+
+#endif

@@ -1,0 +1,49 @@
+// Analytic primitives: parallelogram, and the convex sphere and box that give an interval.
+#ifndef GEOMETRY_PRIMITIVES_GLSL
+#define GEOMETRY_PRIMITIVES_GLSL
+
+#include "core/math.glsl"
+#include "shared/scene_types.h"
+
+const vec2 kEmptyInterval = vec2(1.0, -1.0);
+
+// Distance along the ray, or -1 where it misses or runs in the plane.
+float intersectQuad(Quad quad, vec3 origin, vec3 direction) {
+    vec3 toCorner = quad.corner - origin;
+    float t = dot(toCorner, quad.normal) / dot(direction, quad.normal);
+    vec3 p = direction * t - toCorner;
+    float u = dot(quad.uFromWorld, p);
+    float v = dot(quad.vFromWorld, p);
+    bool inside = min(u, v) >= 0.0 && max(u, v) <= 1.0;  // false for the NaN of a ray in the plane
+    return inside ? t : -1.0;
+}
+
+// Entry and exit distance, either sign; kEmptyInterval where the line misses. The discriminant comes
+// from the perpendicular component, which does not cancel for distant spheres (PBR4 6.8.2).
+vec2 sphereInterval(vec3 center, float radius, vec3 origin, vec3 direction) {
+    vec3 toCenter = center - origin;
+    float along = dot(toCenter, direction);
+    vec3 perpendicular = toCenter - along * direction;
+    float square = radius * radius - dot(perpendicular, perpendicular);
+    float halfChord = sqrt(max(square, 0.0));
+    return square < 0.0 ? kEmptyInterval : vec2(along - halfChord, along + halfChord);
+}
+
+// The same for the image of [-1, 1]^3. An axis along which the ray does not move limits nothing
+// inside and misses outside (numerics H39).
+vec2 boxInterval(mat4x3 localFromWorld, vec3 origin, vec3 direction) {
+    vec3 o = localFromWorld * vec4(origin, 1.0);
+    vec3 d = mat3(localFromWorld) * direction;
+    vec3 inverse = 1.0 / d;
+    vec3 a = (-1.0 - o) * inverse;
+    vec3 b = (1.0 - o) * inverse;
+    bvec3 still = equal(d, vec3(0.0));
+    vec3 entry = mix(min(a, b), vec3(-kInfinity), still);
+    vec3 exit = mix(max(a, b), vec3(kInfinity), still);
+    float t0 = max(entry.x, max(entry.y, entry.z));
+    float t1 = min(exit.x, min(exit.y, exit.z));
+    bool misses = any(greaterThan(mix(vec3(0.0), abs(o), still), vec3(1.0))) || t1 < t0;
+    return misses ? kEmptyInterval : vec2(t0, t1);
+}
+
+#endif

@@ -1,0 +1,41 @@
+// Watertight ray-triangle intersection.
+#ifndef GEOMETRY_TRIANGLE_GLSL
+#define GEOMETRY_TRIANGLE_GLSL
+
+// The shear that turns a direction into +z along its largest axis; one a ray.
+struct RayShear {
+    ivec3 axes;  // x, y and z of the sheared space
+    vec3 shear;  // s.x = d.x / d.z, s.y = d.y / d.z, s.z = 1 / d.z
+};
+
+// Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection".
+RayShear rayShear(vec3 d) {
+    vec3 a = abs(d);
+    int z = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+    int x = z == 2 ? 0 : z + 1;
+    int y = x == 2 ? 0 : x + 1;
+    if (d[z] < 0.0) {
+        int swap = x;
+        x = y;
+        y = swap;
+    }
+    return RayShear(ivec3(x, y, z), vec3(d[x] / d[z], d[y] / d[z], 1.0 / d[z]));
+}
+
+// (t, b1, b2) of the hit, barycentrics of the second and third vertex; t < 0 where there is none.
+// Both sides count. Edges belong to both of their triangles: no ray slips between them (H47).
+vec3 intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2) {
+    vec3 a = v0 - origin, b = v1 - origin, c = v2 - origin;
+    float ax = a[s.axes.x] - s.shear.x * a[s.axes.z], ay = a[s.axes.y] - s.shear.y * a[s.axes.z];
+    float bx = b[s.axes.x] - s.shear.x * b[s.axes.z], by = b[s.axes.y] - s.shear.y * b[s.axes.z];
+    float cx = c[s.axes.x] - s.shear.x * c[s.axes.z], cy = c[s.axes.y] - s.shear.y * c[s.axes.z];
+    precise float u = cx * by - cy * bx;
+    precise float v = ax * cy - ay * cx;
+    precise float w = bx * ay - by * ax;
+    bool outside = min(u, min(v, w)) < 0.0 && max(u, max(v, w)) > 0.0;
+    float determinant = u + v + w;
+    float t = s.shear.z * (u * a[s.axes.z] + v * b[s.axes.z] + w * c[s.axes.z]) / determinant;
+    return outside || determinant == 0.0 ? vec3(-1.0) : vec3(t, v / determinant, w / determinant);
+}
+
+#endif

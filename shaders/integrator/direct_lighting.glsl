@@ -1,0 +1,57 @@
+// Next-event estimation at a vertex, weighted against scattering towards the light by chance.
+#ifndef INTEGRATOR_DIRECT_LIGHTING_GLSL
+#define INTEGRATOR_DIRECT_LIGHTING_GLSL
+
+#include "light/light.glsl"
+#include "sampling/mis.glsl"
+#include "surface/bsdf.glsl"
+#include "volume/phase_function.glsl"
+
+// What scatters: a diffuse surface about its normal, or a phase function about the direction of travel.
+struct Scatterer {
+    vec3 axis;   // shading normal, or direction of travel
+    vec3 wo;
+    float g;     // 0: isotropic
+    bool surface;
+};
+
+// Scattering value towards wi, per steradian; also the density of sampleScatterer. Surfaces leave
+// the reflectance out.
+float evalScatterer(Scatterer s, vec3 wi) {
+    float value = kInvFourPi;
+    if (hasHenyeyGreenstein) value = s.g == 0.0 ? kInvFourPi : evalHenyeyGreenstein(s.g, s.wo, wi);
+    if (hasSurfaces && s.surface) value = evalDiffuse(s.axis, wi);
+    return value;
+}
+
+// Direction (xyz) and its density (w).
+vec4 sampleScatterer(Scatterer s, vec2 u) {
+    vec3 polar = vec3(1.0 - 2.0 * u.x, 2.0 * sqrt(u.x * (1.0 - u.x)), kInvFourPi);  // cos, sin, pdf
+    if (hasHenyeyGreenstein && s.g != 0.0) polar = sampleHenyeyGreenstein(s.g, u.x);
+    vec2 sc = sinCosTurn(u.y);
+    vec3 local = vec3(polar.y * vec2(sc.y, sc.x), polar.x);
+    if (hasSurfaces && s.surface) {
+        local = sampleDiffuse(u);
+        polar.z = pdfDiffuse(local.z);
+    }
+    return vec4(normalize(toWorld(frameFromNormal(s.axis), local)), polar.z);
+}
+
+struct DirectLight {
+    vec3 contribution;  // without throughput and without what is in the way
+    vec3 direction;
+    float distance;
+    uint target;
+    float threshold;    // of the shadow ray's roulette
+};
+
+// `largestFactor`: largest channel of a surface's reflectance, 1 in media.
+DirectLight estimateDirect(Scatterer s, vec3 position, vec3 u, float largestFactor, inout uint tests) {
+    LightSample light = sampleLight(position, u, tests);
+    float value = evalScatterer(s, light.direction);
+    vec3 contribution = light.radianceOverPdf * (value * balanceHeuristic(light.pdf, value));
+    float threshold = min(1.0, shadowRoulette * safeDivide(kInvFourPi, value * largestFactor));
+    return DirectLight(contribution, light.direction, light.distance, light.target, threshold);
+}
+
+#endif

@@ -1,0 +1,22 @@
+// Compensated accumulation (Kahan): a million equal samples must not drift (numerics H77, H80).
+#ifndef INTEGRATOR_FILM_GLSL
+#define INTEGRATOR_FILM_GLSL
+
+#include "shared/path_types.h"
+
+// Adds `value` to sum = high + low.
+void addCompensated(inout vec3 high, inout vec3 low, vec3 value) {
+    precise vec3 y = value + low;
+    precise vec3 t = high + y;
+    precise vec3 taken = t - high;
+    precise vec3 rest = y - taken;
+    high = t;
+    low = rest;
+}
+
+void accumulate(inout FilmPixel pixel, vec3 radiance) {
+    addCompensated(pixel.sumHigh, pixel.sumLow, radiance);
+    addCompensated(pixel.squareHigh, pixel.squareLow, radiance * radiance);
+}
+
+#endif

@@ -1,0 +1,131 @@
+// A path in flight, and how a lane keeps it between dispatches.
+#ifndef INTEGRATOR_PATH_STATE_GLSL
+#define INTEGRATOR_PATH_STATE_GLSL
+
+#include "geometry/ray.glsl"
+#include "volume/tracking.glsl"
+
+struct Path {
+    Ray ray;
+    Hit hit;               // ahead on the ray: the end of the segment
+    Segment segment;
+    uvec2 key;
+    uint vertex;           // scatterings so far
+    uint sampleIndex;      // within the window
+    vec3 beta;             // throughput
+    vec3 radiance;
+    vec3 pending;          // what the shadow ray brings if nothing is in its way
+    float lastPdf;         // of the last scattering's direction; infinite from the camera
+    vec3 nextDirection;    // of the flight to come, after the shadow ray if there is one
+    uvec2 nextExponential; // words of its first exponential
+    vec3 vertexPosition;
+    uint vertexInside;
+    vec3 vertexOffset;
+    uint vertexLast;
+};
+
+layout(set = 0, binding = 13, scalar) buffer PathStates { uint pathStates[]; };
+
+// Shader only: the reference never suspends a path.
+void storeWord(inout uint at, uint stride, uint word) {
+    pathStates[at] = word;
+    at += stride;
+}
+
+// Shader only: as above.
+void storeVector(inout uint at, uint stride, vec3 v) {
+    uvec3 words = floatBitsToUint(v);
+    storeWord(at, stride, words.x);
+    storeWord(at, stride, words.y);
+    storeWord(at, stride, words.z);
+}
+
+// Shader only: as above.
+uint loadWord(inout uint at, uint stride) {
+    uint word = pathStates[at];
+    at += stride;
+    return word;
+}
+
+// Shader only: as above.
+float loadFloat(inout uint at, uint stride) { return uintBitsToFloat(loadWord(at, stride)); }
+
+// Shader only: as above.
+vec3 loadVector(inout uint at, uint stride) {
+    float x = loadFloat(at, stride), y = loadFloat(at, stride), z = loadFloat(at, stride);
+    return vec3(x, y, z);
+}
+
+// Shader only: as above.
+void saveRay(inout uint at, uint stride, Ray ray, Hit hit) {
+    storeVector(at, stride, ray.origin);
+    storeVector(at, stride, ray.direction);
+    storeVector(at, stride, vec3(ray.tMin, ray.tMax, hit.t));
+    storeWord(at, stride, ray.last);
+    storeWord(at, stride, ray.target);
+    storeWord(at, stride, ray.inside);
+    storeWord(at, stride, hit.primitive);
+    storeWord(at, stride, floatBitsToUint(hit.uv.x));
+    storeWord(at, stride, floatBitsToUint(hit.uv.y));
+}
+
+// Shader only: as above.
+void savePath(uint lane, uint stride, Path p) {
+    uint at = lane;
+    storeWord(at, stride, p.sampleIndex);  // column kPathSampleWord
+    saveRay(at, stride, p.ray, p.hit);
+    Segment s = p.segment;
+    storeVector(at, stride, vec3(s.t, s.residual, s.threshold));
+    storeVector(at, stride, s.weight);
+    storeVector(at, stride, s.ratio);
+    storeWord(at, stride, s.collisions);
+    storeWord(at, stride, uint(s.cell.x) | uint(s.cell.y) << 10u | uint(s.cell.z) << 20u);
+    storeWord(at, stride, s.state | (s.shadow ? 4u : 0u) | (p.hit.exits ? 8u : 0u) | s.hero << 4u);
+    storeWord(at, stride, p.vertex);
+    storeVector(at, stride, p.beta);
+    storeVector(at, stride, p.radiance);
+    storeVector(at, stride, p.pending);
+    storeVector(at, stride, p.nextDirection);
+    storeVector(at, stride, p.vertexPosition);
+    storeVector(at, stride, p.vertexOffset);
+    storeVector(at, stride, vec3(p.lastPdf, uintBitsToFloat(p.nextExponential)));
+    storeWord(at, stride, p.vertexInside);
+    storeWord(at, stride, p.vertexLast);
+}
+
+// Shader only: as above.
+void loadPath(uint lane, uint stride, inout Path p) {
+    uint at = lane;
+    p.sampleIndex = loadWord(at, stride);
+    p.ray.origin = loadVector(at, stride);
+    p.ray.direction = loadVector(at, stride);
+    vec3 distances = loadVector(at, stride);
+    p.ray.tMin = distances.x;
+    p.ray.tMax = distances.y;
+    p.ray.last = loadWord(at, stride);
+    p.ray.target = loadWord(at, stride);
+    p.ray.inside = loadWord(at, stride);
+    uint primitive = loadWord(at, stride);
+    float u = loadFloat(at, stride), v = loadFloat(at, stride);
+    vec3 progress = loadVector(at, stride);
+    vec3 weight = loadVector(at, stride), ratio = loadVector(at, stride);
+    uint collisions = loadWord(at, stride), cell = loadWord(at, stride), bits = loadWord(at, stride);
+    p.hit = Hit(distances.z, primitive, vec2(u, v), (bits & 8u) != 0u);
+    p.segment = Segment(progress.x, distances.z, progress.y, collisions,
+                        ivec3(uvec3(cell, cell >> 10u, cell >> 20u) & 1023u), bits & 3u, (bits & 4u) != 0u,
+                        bits >> 4u, progress.z, weight, ratio);
+    p.vertex = loadWord(at, stride);
+    p.beta = loadVector(at, stride);
+    p.radiance = loadVector(at, stride);
+    p.pending = loadVector(at, stride);
+    p.nextDirection = loadVector(at, stride);
+    p.vertexPosition = loadVector(at, stride);
+    p.vertexOffset = loadVector(at, stride);
+    vec3 rest = loadVector(at, stride);
+    p.lastPdf = rest.x;
+    p.nextExponential = floatBitsToUint(rest.yz);
+    p.vertexInside = loadWord(at, stride);
+    p.vertexLast = loadWord(at, stride);
+}
+
+#endif

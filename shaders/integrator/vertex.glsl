@@ -1,0 +1,121 @@
+// Events of a path: vertices, boundaries, ends (included by path_tracer.glsl).
+#ifndef INTEGRATOR_VERTEX_GLSL
+#define INTEGRATOR_VERTEX_GLSL
+
+// Emission of the surface hit, weighted against next-event estimation at the vertex before.
+void addEmission(inout Path p, Surface surface, uint lightIndex) {
+    if (lightIndex == kNone || p.vertex >= scene.maxDepth) return;
+    Light light = scene.lights[lightIndex];
+    float cosine = -dot(surface.geometricNormal, p.ray.direction);
+    float weight = balanceHeuristic(p.lastPdf, lightPdf(light, p.ray.origin, p.hit.t, cosine));
+    if (cosine > 0.0) p.radiance += spectralBeta(p) * light.emission * weight;
+}
+
+void addEnvironment(inout Path p) {
+    if (scene.environment == kNone || p.vertex >= scene.maxDepth) return;
+    float weight = 1.0;
+    if (hasEnvironmentSampling)
+        weight = balanceHeuristic(p.lastPdf, kInvFourPi * scene.lights[scene.environment].selection);
+    p.radiance += spectralBeta(p) * scene.environmentRadiance * weight;
+}
+
+// What a vertex scatters with, for the lanes that have one.
+struct Vertex {
+    bool scatters;
+    Scatterer scatterer;
+    vec3 factor;  // reflectance or albedo
+};
+
+// Scatters: roulette, light sampling, and the directions of the rays to come.
+uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadowExponential, inout Counts counts) {
+    ++p.vertex;
+    ++counts.vertices;
+    p.beta *= v.factor;
+    uvec4 word = draw(p.key, p.vertex, kDrawScatter);
+    float largest = maxComponent(spectralBeta(p));
+    float survival = p.vertex >= scene.rouletteDepth ? clamp(largest, 0.05, 1.0) : 1.0;
+    bool alive = p.vertex < scene.maxDepth && largest > 0.0 && toUniform(word.w) < survival;
+    p.beta /= survival;
+    vec4 next = sampleScatterer(v.scatterer, vec2(toUniform(word.x), toUniform(word.y)));
+    p.lastPdf = next.w;
+    p.nextDirection = next.xyz;
+    p.nextExponential = uvec2(word.z, spareBits(word.x, word.y, word.w));
+    bool shadow = false;
+    if (hasDeltaLights || hasAreaLights || hasEnvironmentSampling) {
+        uvec4 choice = draw(p.key, p.vertex, kDrawLight);
+        vec3 u = vec3(toUniform(choice.x), toUniform(choice.y), toUniform(choice.z));
+        float largestFactor = v.scatterer.surface ? maxComponent(v.factor) : 1.0;
+        light = estimateDirect(v.scatterer, p.vertexPosition, u, largestFactor, counts.tests);
+        p.pending = spectralBeta(p) * light.contribution;
+        shadow = maxComponent(p.pending) > 0.0;
+        shadowExponential = uvec2(choice.w, spareBits(choice.x, choice.y, choice.z));
+    }
+    return alive ? (shadow ? kShadow : kFlight) : kFinish;
+}
+
+// An opaque surface ended the flight: emission, then what scatters.
+Vertex surfaceVertex(inout Path p, Surface surface, Shape shape) {
+    if (hasAreaLights) addEmission(p, surface, shape.light);
+    vec3 wo = -p.ray.direction;
+    vec3 normal = surface.shadingNormal;
+    if (hasDoubleSided && (shape.flags & kShapeTwoSided) != 0u && dot(normal, wo) < 0.0) normal = -normal;
+    p.vertexPosition = surface.position;
+    p.vertexOffset = surface.offset;
+    p.vertexLast = p.hit.primitive;
+    p.vertexInside = p.ray.inside;
+    return Vertex(dot(normal, wo) > 0.0, Scatterer(normal, wo, 0.0, true), shape.reflectance);
+}
+
+// A real collision at the segment's t.
+Vertex mediumVertex(inout Path p) {
+    Medium medium = mediumAt(hasManyMedia ? interiorOf(p.ray.inside) : 0u);
+    p.vertexPosition = p.ray.origin + p.segment.t * p.ray.direction;
+    p.vertexOffset = vec3(0.0);
+    p.vertexLast = kNone;
+    p.vertexInside = p.ray.inside;
+    vec3 corner = vec3(0.0);
+    if (hasAlbedoGrids) {
+        uvec4 word = draw(p.key, p.vertex + 1u, kDrawAlbedo);
+        corner = vec3(toUniform(word.x), toUniform(word.y), toUniform(word.z));
+    }
+    float g = hasHenyeyGreenstein && medium.phase == kPhaseHenyeyGreenstein ? medium.g : 0.0;
+    return Vertex(true, Scatterer(p.ray.direction, -p.ray.direction, g, false),
+                  albedoAt(medium, p.vertexPosition, corner));
+}
+
+// The segment's end was reached: a boundary to cross, a surface, the light, or nothing at all.
+uint arrive(inout Path p, inout Vertex vertex) {
+    bool miss = p.hit.primitive == kNone;
+    Surface surface = surfaceAt(p.ray, p.hit);
+    Shape shape = shapeAt(miss ? 0u : surface.shape);
+    bool boundary = !miss && (shape.flags & kShapeNull) != 0u;
+    uint next = kFinish;
+    if (boundary) {
+        p.ray.inside = crossBoundary(p.ray, p.hit, surface.shape, shape.exterior, surface.geometricNormal);
+        p.ray.tMin = p.hit.t;
+        p.ray.last = p.hit.primitive;
+        next = kCross;
+    } else if (p.segment.shadow) {
+        if (miss) p.radiance += p.pending * p.segment.weight;
+        next = kFlight;
+    } else if (miss) {
+        if (hasEnvironment) addEnvironment(p);
+    } else if (hasSurfaces) {
+        vertex = surfaceVertex(p, surface, shape);
+    }
+    return next;
+}
+
+// Handles what tracking ended with.
+uint handleEvent(inout Path p, inout DirectLight light, inout uvec2 shadowExponential, inout Counts counts) {
+    Vertex vertex;
+    vertex.scatters = false;
+    uint next = kContinue;
+    if (p.segment.state == kArrived) next = arrive(p, vertex);
+    if (hasMedia && p.segment.state == kRouletted) next = kFlight;
+    if (hasMedia && p.segment.state == kCollided) vertex = mediumVertex(p);
+    if (vertex.scatters) next = scatter(p, vertex, light, shadowExponential, counts);
+    return next;
+}
+
+#endif

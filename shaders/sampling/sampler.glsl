@@ -1,0 +1,48 @@
+// Counter-based random numbers: every draw is a pure function of (path, vertex, purpose), so that
+// leaving an effect out shifts no other draw. Dimensions are named in shared/path_types.h.
+#ifndef SAMPLING_SAMPLER_GLSL
+#define SAMPLING_SAMPLER_GLSL
+
+#include "core/math.glsl"
+
+// Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d.
+uvec4 pcg4d(uvec4 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    v ^= v >> 16u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    return v;
+}
+
+// 64 bits that name a path. sampleLow and sampleHigh are one 64-bit sample index.
+uvec2 pathKey(uint pixel, uint sampleLow, uint sampleHigh, uint seed) {
+    return pcg4d(uvec4(pixel, sampleLow, sampleHigh, seed)).xy;
+}
+
+uvec4 draw(uvec2 key, uint vertex, uint purpose) { return pcg4d(uvec4(key, vertex, purpose)); }
+
+// In [0, 1): multiples of 2^-24, never 1.
+float toUniform(uint word) { return float(word >> 8u) * 5.9604644775390625e-8; }
+
+// The 24 bits that toUniform leaves of three words.
+uint spareBits(uint x, uint y, uint z) { return (x & 255u) << 16u | (y & 255u) << 8u | (z & 255u); }
+
+// -log of a uniform number of 48 bits, in (0, 33.3]: the first 24 alone would end flights at 16.6.
+float exponential(uint high, uint low24) {
+    float rest = 1.0 - (float(low24) + 0.5) * 5.9604644775390625e-8;
+    return -logPositive((float(0xffffffu - (high >> 8u)) + rest) * 5.9604644775390625e-8);
+}
+
+// Three 16-bit uniforms for a stochastic grid corner out of a tracking draw.
+vec3 cornerOffsets(uvec4 word) {
+    uvec3 bits = uvec3(word.y >> 16u, word.y & 0xffffu, (word.x & 255u) << 8u | (word.z & 255u));
+    return vec3(bits) * 1.52587890625e-5;
+}
+
+#endif

@@ -1,0 +1,83 @@
+// SIGINT and SIGTERM while a render runs.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "image/image.h"
+#include "support/run_program.h"
+#include "support/scene_text.h"
+
+namespace parhelion::test {
+namespace {
+
+/// Far more samples than a test has time for.
+constexpr const char* kEndless = "1000000000";
+
+/// Fog without absorption, so deep that a path scatters some ten thousand times: a pass over the image takes minutes.
+SceneText slowScene() {
+    SceneText scene;
+    scene.integrator = R"(<integrator type="volpath"><integer name="max_depth" value="-1"/></integrator>)";
+    scene.medium = R"(<medium id="fog" type="homogeneous">
+    <float name="sigma_t" value="300"/>
+    <float name="albedo" value="1"/>
+</medium>)";
+    return scene;
+}
+
+void expectReadable(const TemporaryFolder& folder) {
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"out.exr", "out.png", "scene.xml"}));
+    const Image image = readExr(folder.path() / "out.exr");
+    EXPECT_EQ(image.size, glm::uvec2(16, 12));
+    const auto& red = image.channels.at("R");
+    EXPECT_TRUE(std::all_of(red.begin(), red.end(), [](float value) { return std::isfinite(value) && value > 0; }));
+    const auto samples = std::get<std::int64_t>(image.attributes.at("samplesPerPixel"));
+    EXPECT_GT(samples, 0);
+    EXPECT_LT(samples, 1000000000);
+}
+
+class Interrupt : public testing::TestWithParam<std::string> {};
+
+TEST_P(Interrupt, WritesTheImageSoFar) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        SCOPED_TRACE(signal);
+        const TemporaryFolder folder;
+        folder.write("scene.xml", SceneText{}.text());
+        ChildProgram program(PARHELION_PROGRAM,
+                             {"render", "scene.xml", "--spp", kEndless, "-o", "out.exr", "--backend", GetParam()},
+                             folder.path());
+        ASSERT_TRUE(program.waitForError("rendering")) << program.wait().error;
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        program.signal(signal);
+        const ProgramResult result = program.wait();
+        EXPECT_EQ(result.exitCode, 130) << result.error;
+        EXPECT_NE(result.output.find("interrupted after "), std::string::npos) << result.output;
+        expectReadable(folder);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, Interrupt, testing::Values("vulkan", "reference"),
+                         [](const auto& info) { return info.param; });
+
+TEST(SecondInterrupt, EndsAtOnceAndWritesNothing) {
+    const TemporaryFolder folder;
+    folder.write("scene.xml", slowScene().text());
+    ChildProgram program(PARHELION_PROGRAM,
+                         {"render", "scene.xml", "--size", "512x512", "-o", "out.exr", "--backend", "reference"},
+                         folder.path());
+    ASSERT_TRUE(program.waitForError("rendering"));
+    program.signal(SIGINT);
+    ASSERT_TRUE(program.waitForError("interrupt again to abort"));
+    const auto before = std::chrono::steady_clock::now();
+    program.signal(SIGINT);
+    const ProgramResult result = program.wait();
+    EXPECT_EQ(result.exitCode, 130) << result.error;
+    // A pass takes minutes; ending the process takes none of it.
+    EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(10));
+    EXPECT_EQ(folder.names(), std::set<std::string>{"scene.xml"});
+}
+
+}  // namespace
+}  // namespace parhelion::test

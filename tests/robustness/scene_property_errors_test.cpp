@@ -1,0 +1,184 @@
+// Plugins and properties that are unknown, of the wrong type or out of range.
+#include <gtest/gtest.h>
+
+#include "support/bad_text.h"
+
+namespace parhelion::test {
+namespace {
+
+std::vector<BadText> badValues() {
+    return {
+        {"UnknownProperty",
+         sphereOf("@@<float name=\"raduis\" value=\"1\"/>"),
+         {"unknown property \"raduis\"", "did you mean \"radius\"?", "center"}},
+        {"CamelCaseInVersionThree", sphereOf("@@<boolean name=\"flipNormals\" value=\"true\"/>"), {"flip_normals"}},
+        {"PropertyTwice",
+         sphereOf("<float name=\"radius\" value=\"1\"/>\n@@<float name=\"radius\" value=\"2\"/>"),
+         {"given twice", "scene.xml:3:1"}},
+        {"WrongType", sphereOf("@@<string name=\"radius\" value=\"1\"/>"), {"must be a <float>", "got <string>"}},
+        {"FloatForInteger", integratorOf("@@<float name=\"max_depth\" value=\"3\"/>"), {"<integer>", "got <float>"}},
+        {"NumberWithUnit", sphereOf("<float name=\"radius\" value=\"@@1m\"/>"), {"finite number", "1m"}},
+        {"NotANumber", sphereOf("<float name=\"radius\" value=\"@@nan\"/>"), {"finite number", "nan"}},
+        {"BeyondDouble", sphereOf("<float name=\"radius\" value=\"@@1e999\"/>"), {"finite number", "1e999"}},
+        {"NegativeRadius", sphereOf("<float name=\"radius\" value=\"@@-1\"/>"), {"\"radius\" must be in (0", "got -1"}},
+        {"BooleanIsNumber", sphereOf("<boolean name=\"flip_normals\" value=\"@@1\"/>"), {"true", "false", "\"1\""}},
+        {"PointWithTwoCoordinates",
+         sphereOf("@@<point name=\"center\" x=\"1\" y=\"2\"/>"),
+         {"needs an attribute \"z\""}},
+        {"PointInBothForms", sphereOf("<point name=\"center\" value=\"1\" @@x=\"2\"/>"), {"not both"}},
+        {"PointWithTwoNumbers", sphereOf("<point name=\"center\" value=\"@@1, 2\"/>"), {"three numbers"}},
+    };
+}
+
+std::vector<BadText> badSurfacesAndLights() {
+    return {
+        {"ColorWithTwoNumbers", diffuseOf("<rgb name=\"reflectance\" value=\"@@0.1, 0.2\"/>"), {"three numbers"}},
+        {"BadHexColor", diffuseOf("<rgb name=\"reflectance\" value=\"@@#ff00\"/>"), {"#rrggbb"}},
+        {"WavelengthList",
+         diffuseOf("<spectrum name=\"reflectance\" value=\"@@400:0.1, 700:0.2\"/>"),
+         {"wavelength", "<rgb>"}},
+        {"ReflectanceAboveOne",
+         diffuseOf("<rgb name=\"reflectance\" value=\"@@0.5, 1.25, 0\"/>"),
+         {"[0, 1]", "got 1.25"}},
+        {"Texture",
+         diffuseOf(
+             "@@<texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" value=\"a.png\"/></texture>"),
+         {"texture plugin \"bitmap\" is not supported", "<rgb>"}},
+        {"UnknownPlugin",
+         sceneOf("<shape type=\"@@spere\"/>"),
+         {"\"spere\" is not supported", "did you mean \"sphere\"?"}},
+        {"KnownToMitsubaOnly", sceneOf("<shape type=\"@@cylinder\"/>"), {"obj, rectangle, cube, sphere"}},
+        {"EnvironmentMap", sceneOf("<emitter type=\"@@envmap\"/>"), {"constant, directional, point"}},
+        {"GlossySurface", sphereOf("<bsdf type=\"@@roughconductor\"/>"), {"diffuse, null, twosided"}},
+        {"NegativeRadiance",
+         sceneOf("<emitter type=\"constant\"><rgb name=\"radiance\" value=\"@@1 -1 1\"/></emitter>"),
+         {"got -1"}},
+        {"TwoSkies",
+         sceneOf("<emitter type=\"constant\"/>\n@@<emitter type=\"constant\"/>"),
+         {"only one emitter", "scene.xml:2:1"}},
+        {"AreaLightWithoutShape", sceneOf("@@<emitter type=\"area\"/>"), {"nested in a <shape>"}},
+        {"LightOnNullSurface",
+         sceneOf("@@<shape type=\"sphere\"><bsdf type=\"null\"/><emitter type=\"area\"/></shape>"),
+         {"null"}},
+        {"ZeroDirection",
+         sceneOf("<emitter type=\"directional\"><vector name=\"direction\" value=\"@@0 0 0\"/></emitter>"),
+         {"must not be zero"}},
+        {"DirectionInBothForms",
+         sceneOf("<emitter type=\"directional\"><vector name=\"direction\" value=\"0 0 1\"/>@@<transform "
+                 "name=\"to_world\"/></emitter>"),
+         {"not both"}},
+        {"TwoSurfaces", sphereOf("<bsdf type=\"diffuse\"/>@@<bsdf type=\"null\"/>"), {"only one <bsdf>"}},
+        {"TwoSidedNull", sphereOf("<bsdf type=\"twosided\">@@<bsdf type=\"null\"/></bsdf>"), {"diffuse", "null"}},
+        {"PhaseInShape", sphereOf("@@<phase type=\"hg\"/>"), {"<phase> is not allowed here"}},
+    };
+}
+
+std::vector<BadText> badMedia() {
+    return {
+        {"MediumWithoutRole", sphereOf("@@<medium type=\"homogeneous\"/>"), {"interior", "exterior"}},
+        {"NegativeExtinction",
+         mediumOf("<float name=\"sigma_t\" value=\"@@-2\"/>"),
+         {"\"sigma_t\" must be in [0", "got -2"}},
+        {"NanExtinction", mediumOf("<rgb name=\"sigma_t\" value=\"@@1 nan 1\"/>"), {"finite", "nan"}},
+        {"NegativeScale", mediumOf("<float name=\"scale\" value=\"@@-1\"/>"), {"scale", "got -1"}},
+        {"AlbedoAboveOne", mediumOf("<float name=\"albedo\" value=\"@@1.5\"/>"), {"[0, 1]", "got 1.5"}},
+        {"AnisotropyOfOne",
+         mediumOf("<phase type=\"hg\"><float name=\"g\" value=\"@@1\"/></phase>"),
+         {"(-1, 1)", "got 1"}},
+        {"UnknownPhase", mediumOf("<phase type=\"@@rayleigh\"/>"), {"isotropic, hg"}},
+        {"TwoPhases", mediumOf("<phase type=\"hg\"/>@@<phase type=\"hg\"/>"), {"only one <phase>"}},
+        {"MixedCoefficients",
+         mediumOf("<float name=\"sigma_s\" value=\"1\"/><float name=\"albedo\" value=\"@@0.5\"/>"),
+         {"mixes"}},
+        {"GridInHomogeneous", mediumOf("@@<volume name=\"sigma_x\" type=\"gridvolume\"/>"), {"sigma_x", "sigma_t"}},
+        {"MissingGridFile",
+         mediumOf(
+             "<volume name=\"sigma_t\" type=\"gridvolume\"><string name=\"filename\" value=\"@@no.vol\"/></volume>",
+             "heterogeneous"),
+         {"no.vol", "not found"}},
+        {"GridWithoutFile",
+         mediumOf("@@<volume name=\"sigma_t\" type=\"gridvolume\"/>", "heterogeneous"),
+         {"filename"}},
+        {"NearestFilter",
+         mediumOf(
+             "<volume name=\"sigma_t\" type=\"gridvolume\"><string name=\"filter_type\" value=\"@@nearest\"/></volume>",
+             "heterogeneous"),
+         {"trilinear"}},
+        {"RepeatingGrid",
+         mediumOf(
+             "<volume name=\"sigma_t\" type=\"gridvolume\"><string name=\"wrap_mode\" value=\"@@repeat\"/></volume>",
+             "heterogeneous"),
+         {"clamp"}},
+        {"DamagedGridFile",
+         mediumOf("<volume name=\"sigma_t\" type=\"gridvolume\"><string name=\"filename\" value=\"bad.vol\"/></volume>",
+                  "heterogeneous"),
+         {"bad.vol"},
+         {{"bad.vol", "VOL\3 and no more"}}},
+    };
+}
+
+std::vector<BadText> badCameras() {
+    return {
+        {"ZeroFov", cameraOf("<float name=\"fov\" value=\"@@0\"/>"), {"(0, 180)", "got 0"}},
+        {"FlatFov", cameraOf("<float name=\"fov\" value=\"@@180\"/>"), {"(0, 180)"}},
+        {"UnknownFovAxis",
+         cameraOf("<float name=\"fov\" value=\"40\"/><string name=\"fov_axis\" value=\"@@z\"/>"),
+         {"diagonal"}},
+        {"FovAxisAlone", cameraOf("<string name=\"fov_axis\" value=\"@@x\"/>"), {"needs a \"fov\""}},
+        {"FovAndLens",
+         cameraOf("<float name=\"fov\" value=\"40\"/><string name=\"focal_length\" value=\"@@50mm\"/>"),
+         {"not both"}},
+        {"BadLens", cameraOf("<string name=\"focal_length\" value=\"@@long\"/>"), {"50mm", "long"}},
+        {"ScaledCamera",
+         cameraOf("@@<transform name=\"to_world\"><scale value=\"2\"/></transform>"),
+         {"must not scale"}},
+        {"ClipsCrossed",
+         cameraOf("<float name=\"near_clip\" value=\"@@5\"/><float name=\"far_clip\" value=\"1\"/>"),
+         {"less than"}},
+        {"UnknownSensor", sceneOf("", kIntegrator + "<sensor type=\"@@thinlens\"/>"), {"perspective"}},
+        {"CameraInMedium", cameraOf("@@<medium type=\"homogeneous\"/>"), {"follows from the shapes"}},
+    };
+}
+
+std::vector<BadText> badFilmsAndIntegrators() {
+    return {
+        {"UnknownFilm", cameraOf("<film type=\"@@specfilm\"/>"), {"hdrfilm"}},
+        {"EmptyFilm", filmOf("<integer name=\"width\" value=\"@@0\"/>"), {"[1, 32768]", "got 0"}},
+        {"CropOutside",
+         filmOf("<integer name=\"crop_offset_x\" value=\"@@700\"/><integer name=\"crop_width\" value=\"100\"/>"),
+         {"inside the film", "768"}},
+        {"CropOffsetAlone", filmOf("<integer name=\"crop_offset_y\" value=\"@@1\"/>"), {"1 + 576"}},
+        {"UnknownFilter", filmOf("<rfilter type=\"@@mitchell\"/>"), {"box, tent, gaussian"}},
+        {"RadiusOfBox",
+         filmOf("<rfilter type=\"box\">@@<float name=\"radius\" value=\"1\"/></rfilter>"),
+         {"unknown property \"radius\""}},
+        {"UnknownFileFormat", filmOf("<string name=\"file_format\" value=\"@@pfm\"/>"), {"openexr"}},
+        {"NoSamples",
+         cameraOf("<sampler type=\"independent\"><integer name=\"sample_count\" value=\"@@0\"/></sampler>"),
+         {"got 0"}},
+        {"UnknownSampler", cameraOf("<sampler type=\"@@sobol\"/>"), {"independent"}},
+        {"HiddenEmitters", integratorOf("<boolean name=\"hide_emitters\" value=\"@@true\"/>"), {"hide_emitters"}},
+        {"DepthBelowMinusOne", integratorOf("<integer name=\"max_depth\" value=\"@@-2\"/>"), {"[-1", "got -2"}},
+        {"RouletteAtZero", integratorOf("<integer name=\"rr_depth\" value=\"@@0\"/>"), {"got 0"}},
+        {"AovIntegrator",
+         sceneOf("", "@@<integrator type=\"aov\"/>" + kSensor),
+         {"not supported", "albedo, normal and depth"}},
+        {"UnknownIntegrator", sceneOf("", "<integrator type=\"@@ptracer\"/>" + kSensor), {"path, volpath"}},
+        {"EmptyMoment", sceneOf("", "@@<integrator type=\"moment\"/>" + kSensor), {"nested <integrator>"}},
+    };
+}
+
+class ScenePropertyError : public testing::TestWithParam<BadText> {};
+
+TEST_P(ScenePropertyError, NamesTheCauseAndItsPlace) { expectRefused(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(Values, ScenePropertyError, testing::ValuesIn(badValues()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(SurfacesAndLights, ScenePropertyError, testing::ValuesIn(badSurfacesAndLights()),
+                         nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(Media, ScenePropertyError, testing::ValuesIn(badMedia()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(Cameras, ScenePropertyError, testing::ValuesIn(badCameras()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(FilmsAndIntegrators, ScenePropertyError, testing::ValuesIn(badFilmsAndIntegrators()),
+                         nameOfBadText);
+
+}  // namespace
+}  // namespace parhelion::test

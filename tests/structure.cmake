@@ -1,0 +1,14 @@
+# What design asks of the sources themselves, checked by scripts; label unit.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+function(structure_test property)
+    add_test(NAME Structure.${property} COMMAND ${ARGN})
+    set_tests_properties(Structure.${property} PROPERTIES LABELS unit TIMEOUT 120 SKIP_RETURN_CODE 77)
+endfunction()
+
+set(tools ${CMAKE_SOURCE_DIR}/tools)
+structure_test(FoldersIncludeOnlyFloorsBelow ${Python3_EXECUTABLE} ${tools}/check_floors.py)
+structure_test(EveryShaderHasItsTwin ${Python3_EXECUTABLE} ${tools}/check_mirror.py)
+structure_test(FilesAndFunctionsStaySmall ${Python3_EXECUTABLE} ${tools}/check_sizes.py)
+structure_test(CodeIsFormatted bash ${tools}/check_style.sh)
+structure_test(ChecksFindSeededViolations ${Python3_EXECUTABLE} ${tools}/checks_test.py)

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include "unit/compile_fixtures.h"
+
+namespace parhelion {
+namespace {
+
+using namespace fixtures;
+
+SceneDescription sceneWith(std::vector<ShapeDescription> shapes, std::size_t mediumCount = 3) {
+    SceneDescription description = scene();
+    description.shapes = std::move(shapes);
+    for (std::size_t i = 0; i < mediumCount; ++i) description.media.push_back(medium(std::string(1, char('a' + i))));
+    return description;
+}
+
+glm::dmat4 turned(const glm::dvec3& at, double degrees, const glm::dvec3& axis, const glm::dvec3& halfSize) {
+    return glm::rotate(translation(at), glm::radians(degrees), axis) * scaling(halfSize);
+}
+
+TEST(MediumNesting, ExteriorIsTheShapeThatProvidesIt) {
+    const SceneDescription description = sceneWith({boundary(sphere("inner", {0, 0, 0}, 0.5), 1, 0),
+                                                    boundary(cube("outer", {0, 0, 0}, {2, 2, 2}), 0),
+                                                    boundary(sphere("apart", {9, 0, 0}, 1), 0)});
+    const CompiledScene compiled = compileScene(description);
+    ASSERT_EQ(compiled.shapes.size(), 3u);
+    EXPECT_EQ(compiled.shapes[0].exterior, 1u);
+    EXPECT_EQ(compiled.shapes[1].exterior, shared::kNone);
+    EXPECT_EQ(compiled.shapes[2].exterior, shared::kNone);
+    EXPECT_EQ(compiled.constants.mediumCount, 2u);
+    EXPECT_EQ(compiled.shapes[1].interior, compiled.shapes[2].interior);
+    EXPECT_NE(compiled.shapes[0].interior, compiled.shapes[1].interior);
+}
+
+TEST(MediumNesting, ThreeDeepFindsTheInnermost) {
+    const CompiledScene compiled = compileScene(sceneWith({boundary(sphere("c", {}, 1), 2, 1),
+                                                           boundary(sphere("a", {}, 3), 0),
+                                                           boundary(sphere("b", {}, 2), 1, 0)}));
+    EXPECT_EQ(compiled.shapes[0].exterior, 2u);
+    EXPECT_EQ(compiled.shapes[2].exterior, 1u);
+}
+
+TEST(MediumNesting, OverlapsAreRefusedNamingBoth) {
+    const glm::dvec3 unit(1, 1, 1);
+    const std::vector<std::pair<ShapeDescription, ShapeDescription>> pairs = {
+        {sphere("p", {0, 0, 0}, 1), sphere("q", {1.9, 0, 0}, 1)},
+        {cube("p", {0, 0, 0}, unit), cube("q", {1.99, 1.99, 1.99}, unit)},
+        {cube("p", {0, 0, 0}, unit), shape(ShapeDescription::Type::Cube, "q", turned({2.3, 0, 0}, 45, {0, 0, 1}, unit))},
+        {cube("p", {0, 0, 0}, unit), sphere("q", {1.5, 1.5, 0}, 0.71)},
+        {cube("p", {0, 0, 0}, unit), sphere("q", {0, 0, 0}, 1.2)},   // pokes out of the faces, not the corners
+        {sphere("p", {0, 0, 0}, 1), sphere("q", {0, 0, 0}, 1)}};     // coincident
+    for (const auto& [p, q] : pairs) {
+        const std::string message = inputErrorOf(sceneWith({boundary(p, 0), boundary(q, 1)}));
+        EXPECT_TRUE(contains(message, "\"p\"") && contains(message, "\"q\"") && contains(message, "overlap")) << message;
+        EXPECT_TRUE(contains(message, "q.xml:7:5"));
+    }
+}
+
+TEST(MediumNesting, TouchingAndNearbyMediaAreAccepted) {
+    const glm::dvec3 unit(1, 1, 1);
+    const std::vector<std::pair<ShapeDescription, ShapeDescription>> pairs = {
+        {sphere("p", {0, 0, 0}, 1), sphere("q", {2, 0, 0}, 1)},
+        {cube("p", {0, 0, 0}, unit), cube("q", {2, 0, 0}, unit)},  // share a face
+        {cube("p", {0, 0, 0}, unit), cube("q", {2.0 - 1e-7, 0, 0}, unit)},
+        {cube("p", {0, 0, 0}, unit), shape(ShapeDescription::Type::Cube, "q", turned({2.42, 0, 0}, 45, {0, 0, 1}, unit))},
+        // Bounding boxes and face normals overlap; only the product of two edges separates.
+        {shape(ShapeDescription::Type::Cube, "p", turned({0, 0, 0}, 45, {0, 0, 1}, {1, 1, 4})),
+         shape(ShapeDescription::Type::Cube, "q", turned({2.9, 0, 0}, 45, {0, 1, 0}, {1, 4, 1}))},
+        {cube("p", {0, 0, 0}, unit), sphere("q", {1.5, 1.5, 0}, 0.70)}};  // past the edge
+    for (const auto& [p, q] : pairs) EXPECT_EQ(inputErrorOf(sceneWith({boundary(p, 0), boundary(q, 1)})), "");
+}
+
+TEST(MediumNesting, NestedMediaMustNameTheirExterior) {
+    const std::string message = inputErrorOf(
+        sceneWith({boundary(cube("outer", {}, {2, 2, 2}), 0), boundary(sphere("inner", {}, 1), 1)}));
+    EXPECT_TRUE(contains(message, "inner.xml:7:5")) << message;
+    EXPECT_TRUE(contains(message, "<ref name=\"exterior\" id=\"a\"/>")) << message;
+    const std::string wrong = inputErrorOf(
+        sceneWith({boundary(cube("outer", {}, {2, 2, 2}), 0), boundary(sphere("inner", {}, 1), 1, 2),
+                   boundary(sphere("elsewhere", {9, 0, 0}, 1), 2)}));
+    EXPECT_TRUE(contains(wrong, "got \"c\"")) << wrong;
+}
+
+TEST(MediumNesting, AnExteriorNobodyProvidesIsRefused) {
+    EXPECT_TRUE(contains(inputErrorOf(sceneWith({boundary(sphere("s", {}, 1), 0, 1)})), "unbounded"));
+    ShapeDescription opaque = sphere("s", {}, 1);
+    opaque.exterior = 0;
+    EXPECT_TRUE(contains(inputErrorOf(sceneWith({opaque})), "unbounded"));
+    EXPECT_EQ(inputErrorOf(sceneWith({opaque, boundary(cube("fog", {}, {0.5, 3, 3}), 0)})), "")
+        << "an opaque shape may cut through its medium's boundary";
+}
+
+TEST(MediumNesting, AHoleIsKeptAndAnEmptyMediumIsAHole) {
+    SceneDescription description = sceneWith({boundary(sphere("fog", {}, 3), 0), boundary(sphere("hole", {}, 2), 1, 0),
+                                              boundary(sphere("vacuum", {}, 1.5), 1, 1),
+                                              boundary(sphere("core", {}, 1), 2, 1)});
+    description.media[1].sigmaT = glm::dvec3(0.0);
+    const CompiledScene compiled = compileScene(description);
+    ASSERT_EQ(compiled.shapes.size(), 3u) << "vacuum in vacuum is dropped";
+    EXPECT_EQ(compiled.shapes[1].interior, shared::kNone);
+    EXPECT_EQ(compiled.shapes[1].exterior, 0u);
+    EXPECT_EQ(compiled.shapes[2].exterior, 1u) << "what is around the dropped shape";
+    EXPECT_EQ(compiled.constants.mediumCount, 2u);
+}
+
+TEST(MediumNesting, EmptyMediaLeaveNothing) {
+    SceneDescription description = sceneWith({boundary(sphere("s", {}, 1), 0)}, 1);
+    description.media[0].sigmaT = glm::dvec3(0.0);
+    const CompiledScene compiled = compileScene(description);
+    EXPECT_TRUE(compiled.shapes.empty());
+    EXPECT_EQ(compiled.constants.mediumCount, 0u);
+    EXPECT_FALSE(compiled.effects.has(Effect::hasMedia));
+    EXPECT_FALSE(compiled.notes.empty());
+}
+
+std::uint32_t insideFrom(const glm::dvec3& camera, const std::vector<ShapeDescription>& shapes) {
+    SceneDescription description = sceneWith(shapes);
+    description.camera.toWorld = translation(camera);
+    return compileScene(description).constants.camera.inside;
+}
+
+TEST(CameraMedium, TheInnermostBoundaryWins) {
+    const std::vector<ShapeDescription> shapes = {boundary(sphere("inner", {0, 0, 0}, 0.5), 1, 0),
+                                                  boundary(cube("outer", {0, 0, 0}, {2, 2, 2}), 0),
+                                                  boundary(tetrahedron("mesh", translation({5, 0, 0})), 2)};
+    EXPECT_EQ(insideFrom({0.1, 0.2, 0.3}, shapes), 0u);
+    EXPECT_EQ(insideFrom({1.5, -1.9, 0.3}, shapes), 1u);
+    EXPECT_EQ(insideFrom({5.2, 0.2, 0.2}, shapes), 2u);
+    EXPECT_EQ(insideFrom({5.4, 0.4, 0.4}, shapes), shared::kNone) << "within the mesh's bounds only";
+    EXPECT_EQ(insideFrom({0, 0, -2}, shapes), shared::kNone) << "on the face is outside";
+    EXPECT_EQ(insideFrom({0, 0, -10}, shapes), shared::kNone);
+}
+
+TEST(CameraMedium, AnOpaqueRoomFilledWithAMediumHoldsTheCamera) {
+    ShapeDescription room = cube("room", {}, {3, 3, 3});
+    room.interior = 0;
+    EXPECT_EQ(insideFrom({1, 1, 1}, {room}), 0u);
+
+    SceneDescription outside = sceneWith({room});
+    const CompiledScene compiled = compileScene(outside);
+    EXPECT_EQ(compiled.constants.camera.inside, shared::kNone);
+    EXPECT_EQ(compiled.constants.mediumCount, 0u) << "no path gets in";
+    EXPECT_EQ(compiled.shapes[0].interior, shared::kNone);
+    EXPECT_FALSE(compiled.notes.empty());
+}
+
+TEST(MediumNesting, MeshesAreGivenTheBenefitOfTheDoubt) {
+    EXPECT_EQ(inputErrorOf(sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {0.4, 0.4, 0.4}, 0.3), 1)})), "");
+    const CompiledScene nested = compileScene(
+        sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {0.2, 0.2, 0.2}, 0.1), 1, 0)}));
+    EXPECT_EQ(nested.shapes[1].exterior, 0u);
+    EXPECT_TRUE(contains(
+        inputErrorOf(sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {4, 0, 0}, 0.1), 1, 0)})), "unbounded"));
+}
+
+TEST(CompiledIntegrator, PathIgnoresMediaWithANote) {
+    SceneDescription description = sceneWith({boundary(sphere("s", {}, 1), 0), sphere("o", {5, 0, 0}, 1)});
+    description.integrator.type = "path";
+    const CompiledScene compiled = compileScene(description);
+    EXPECT_EQ(compiled.shapes.size(), 1u);
+    EXPECT_FALSE(compiled.effects.has(Effect::hasMedia));
+    EXPECT_TRUE(contains(compiled.notes.at(0), "volpath"));
+}
+
+}  // namespace
+}  // namespace parhelion

@@ -1,0 +1,113 @@
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#include <gtest/gtest.h>
+#include <stb/stb_image.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "image/image.h"
+#include "image/tone_curve.h"
+#include "support/temporary_folder.h"
+
+namespace parhelion {
+namespace {
+
+using test::TemporaryFolder;
+using Colour = std::array<int, 3>;
+
+Image imageOf(const std::vector<glm::vec3>& pixels) {
+    Image image{.size = {static_cast<unsigned>(pixels.size()), 1}, .channels = {}, .attributes = {}};
+    for (int c = 0; c < 3; ++c)
+        for (const glm::vec3& pixel : pixels) image.channels[std::string(1, "RGB"[c])].push_back(pixel[c]);
+    return image;
+}
+
+std::vector<Colour> shownColours(const std::vector<glm::vec3>& pixels, double exposureStops = 0) {
+    const TemporaryFolder folder;
+    const std::string file = (folder.path() / "a.png").string();
+    writePng(file, imageOf(pixels), exposureStops);
+    int width = 0, height = 0, channels = 0;
+    stbi_uc* bytes = stbi_load(file.c_str(), &width, &height, &channels, 0);
+    std::vector<Colour> colours;
+    for (int i = 0; bytes && i < width * height; ++i)
+        colours.push_back({bytes[3 * i], bytes[3 * i + 1], bytes[3 * i + 2]});
+    EXPECT_EQ(channels, 3);
+    EXPECT_EQ(colours.size(), pixels.size());
+    stbi_image_free(bytes);
+    return colours;
+}
+
+TEST(ToneCurve, LeavesValuesUpToOneHalfUntouched) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(0, 0.5);
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 colour{uniform(random), uniform(random), uniform(random)};
+        EXPECT_EQ(displayColour(colour), colour);
+    }
+}
+
+TEST(ToneCurve, RisesSmoothlyTowardsWhite) {
+    double before = displayColour(glm::dvec3(0.4)).g;
+    for (double value = 0.401; value < 1e6; value *= 1.001) {
+        const double shown = displayColour(glm::dvec3(value)).g;
+        EXPECT_GT(shown, before);
+        EXPECT_LE(shown, 1.0);
+        before = shown;
+    }
+    // 1 - 1/(4p): same value and slope as the identity at 1/2; second derivative -4 there, so the error of the
+    // difference quotient is 4 h.
+    const double h = 1e-4;
+    EXPECT_NEAR((displayColour(glm::dvec3(0.5 + h)).g - 0.5) / h, 1.0, 4 * h);
+}
+
+// Hue as the position of the middle channel between the outer two. Two steps scale and shift all channels alike, each
+// with roundings of 2^-53: 1e-12 leaves room for hues of small chroma, down to 1e-3 of the peak.
+TEST(ToneCurve, KeepsHueHoweverBright) {
+    for (const double peak : {0.6, 1.0, 7.0, 1e3, 1e6}) {
+        const glm::dvec3 shown = displayColour(peak * glm::dvec3(1.0, 0.25, 0.05));
+        EXPECT_NEAR((shown.g - shown.b) / (shown.r - shown.b), (0.25 - 0.05) / (1.0 - 0.05), peak * 1e-12) << peak;
+        EXPECT_LE(shown.r, 1.0);
+    }
+}
+
+TEST(PngFile, ShowsKnownCodeValues) {
+    // sRGB of 0.5 is 0.7354 -> 188, of 0.0031308 x 12.92 -> 10, of 1 - 1/4 = 0.75 is 0.8808 -> 225.
+    const std::vector<Colour> shown = shownColours(
+        {glm::vec3(0), glm::vec3(0.5f), glm::vec3(0.0031308f), glm::vec3(1), glm::vec3(0.5f, 0.0f, 0.25f)});
+    EXPECT_EQ(shown[0], (Colour{0, 0, 0}));
+    EXPECT_EQ(shown[1], (Colour{188, 188, 188}));
+    EXPECT_EQ(shown[2], (Colour{10, 10, 10}));
+    EXPECT_EQ(shown[3], (Colour{225, 225, 225}));
+    EXPECT_EQ(shown[4], (Colour{188, 0, 137}));
+}
+
+TEST(PngFile, ExposureIsInStops) {
+    EXPECT_EQ(shownColours({glm::vec3(0.1f)}, 2.0), shownColours({glm::vec3(0.4f)}));
+    EXPECT_EQ(shownColours({glm::vec3(0.4f)}, -1.0), shownColours({glm::vec3(0.2f)}));
+}
+
+TEST(PngFile, MarksWhatIsNotFinite) {
+    const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<Colour> shown =
+        shownColours({{infinity, 0, 0}, {nan, 0, 0}, {infinity, nan, 0}, {-1, 0.5f, -infinity}, {3e38f, 0, 0}}, 64);
+    EXPECT_EQ(shown[0], (Colour{255, 255, 255}));
+    EXPECT_EQ(shown[1], (Colour{255, 0, 255}));
+    EXPECT_EQ(shown[2], (Colour{255, 0, 255}));
+    EXPECT_EQ(shown[3], (Colour{255, 255, 255}));
+    EXPECT_EQ(shown[4], (Colour{255, 255, 255}));
+}
+
+TEST(PngFile, RefusesMissingChannelsAndWildExposure) {
+    const TemporaryFolder folder;
+    const Image grey{.size = {1, 1}, .channels = {{"Y", {1.0f}}}, .attributes = {}};
+    EXPECT_THROW(writePng(folder.path() / "a.png", grey), InputError);
+    for (const double stops : {65.0, -65.0, std::nan(""), HUGE_VAL})
+        EXPECT_THROW(writePng(folder.path() / "a.png", imageOf({glm::vec3(1)}), stops), InputError) << stops;
+    EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace parhelion

@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "unit/compile_fixtures.h"
+
+namespace parhelion {
+namespace {
+
+using namespace fixtures;
+
+CompiledScene compileWith(ReconstructionFilter filter, double radius, double stddev) {
+    SceneDescription description = scene();
+    description.film.filter = filter;
+    description.film.filterRadius = radius;
+    description.film.filterStddev = stddev;
+    return compileScene(description);
+}
+
+// Float entries are good to 2^-24 of their value; where the density f is small, a step of 1e-9 radii in x stays
+// below 1e-9 in the cumulative, which is what is compared.
+constexpr double kTolerance = 2 * 0x1p-24;
+
+void expectAntisymmetric(const std::vector<float>& table) {
+    ASSERT_EQ(table.size(), 257u);
+    for (int k = 0; k <= 128; ++k) EXPECT_EQ(table[128 + k], -table[128 - k]) << k;
+    for (int k = 0; k < 256; ++k) EXPECT_LT(table[k], table[k + 1]) << k;
+}
+
+TEST(ReconstructionTable, IsEmptyForThePixelBoxOnly) {
+    const CompiledScene pixel = compileWith(ReconstructionFilter::Box, 0.5, 0.5);
+    EXPECT_TRUE(pixel.filterTable.empty());
+    EXPECT_EQ(pixel.constants.camera.filterRadius, 0.5f);
+    EXPECT_FALSE(pixel.effects.has(Effect::hasFilterTable));
+
+    const CompiledScene wide = compileWith(ReconstructionFilter::Box, 1.5, 0.5);
+    expectAntisymmetric(wide.filterTable);
+    for (int k = 0; k <= 256; ++k) EXPECT_NEAR(wide.filterTable[k], 1.5 * (k / 128.0 - 1.0), 1.5 * kTolerance) << k;
+    EXPECT_TRUE(wide.effects.has(Effect::hasFilterTable));
+}
+
+TEST(ReconstructionTable, InvertsTheTent) {
+    for (const double radius : {1.0, 2.0, 0.3}) {
+        const CompiledScene compiled = compileWith(ReconstructionFilter::Tent, radius, 0.5);
+        expectAntisymmetric(compiled.filterTable);
+        for (int k = 0; k <= 128; ++k) {
+            const double x = compiled.filterTable[k] / radius;  // in [-1, 0]: cumulative (1 + x)^2 / 2
+            EXPECT_NEAR(0.5 * (1.0 + x) * (1.0 + x), k / 256.0, kTolerance) << k;
+        }
+    }
+}
+
+TEST(ReconstructionTable, InvertsTheTruncatedGaussian) {
+    for (const double s : {0.5, 1.25}) {
+        const CompiledScene compiled = compileWith(ReconstructionFilter::Gaussian, 2.0, s);
+        expectAntisymmetric(compiled.filterTable);
+        EXPECT_FLOAT_EQ(compiled.constants.camera.filterRadius, float(4 * s));
+        // integral_0^x exp(-t^2 / 2 s^2) - exp(-8) dt
+        const auto mass = [s](double x) {
+            return s * std::sqrt(std::acos(-1.0) / 2) * std::erf(x / (s * std::sqrt(2.0))) - std::exp(-8.0) * x;
+        };
+        for (int k = 0; k <= 256; ++k)
+            EXPECT_NEAR(0.5 + 0.5 * mass(compiled.filterTable[k]) / mass(4 * s), k / 256.0, kTolerance) << k;
+    }
+}
+
+TEST(ReconstructionTable, RefusesAnEmptyFilter) {
+    SceneDescription description = scene();
+    description.film.filterRadius = 0.0;
+    EXPECT_TRUE(contains(inputErrorOf(description), "radius"));
+}
+
+}  // namespace
+}  // namespace parhelion

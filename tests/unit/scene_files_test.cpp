@@ -1,0 +1,118 @@
+// The scenes that peers share: each either reads, or says which plugin it needs that we have not.
+#include <gtest/gtest.h>
+
+#include "support/scene_reading.h"
+
+namespace parhelion::test {
+namespace {
+
+const std::filesystem::path kShared = std::filesystem::path(PARHELION_ROOT) / "../shared";
+const std::filesystem::path kMitsuba = kShared / "data/mitsuba/tests/scenes/participating_media";
+
+void expectRefused(const std::filesystem::path& file, int line, int column, const std::string& plugin,
+                   const std::string& supported) {
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
+    try {
+        readScene(file);
+        FAIL() << file << " was accepted";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.where().text(), SourceLocation({file.string(), line, column}).text());
+        EXPECT_NE(std::string(error.what()).find("\"" + plugin + "\" is not supported"), std::string::npos)
+            << error.what();
+        EXPECT_NE(std::string(error.what()).find(supported), std::string::npos) << error.what();
+    }
+}
+
+TEST(BenchmarkScene, FurnaceReads) {
+    const std::filesystem::path file = kShared / "benchmark/furnace.xml";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
+    const SceneDescription scene = readScene(file, {.defines = {{"spp", "16"}}});
+    EXPECT_EQ(scene.film.size, glm::uvec2(256));
+    EXPECT_EQ(scene.film.filter, ReconstructionFilter::Box);
+    EXPECT_EQ(scene.sampleCount, 16u);
+    EXPECT_EQ(scene.camera.fovXDegrees, 40.0);
+    EXPECT_EQ(scene.integrator.rouletteDepth, 1'000'000);
+    EXPECT_EQ(scene.media.at(0).sigmaT, glm::dvec3(10.0));
+    EXPECT_EQ(scene.media.at(0).albedo, glm::dvec3(1.0));
+    EXPECT_EQ(scene.media.at(0).phase.g, 0.5);
+    EXPECT_EQ(scene.shapes.at(0).bsdf.type, BsdfDescription::Type::Null);
+}
+
+TEST(BenchmarkScene, CornellCloudReads) {
+    const std::filesystem::path file = kShared / "benchmark/cornell_cloud.xml";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
+    const SceneDescription scene = readScene(file);
+    ASSERT_EQ(scene.shapes.size(), 7u);
+    EXPECT_EQ(scene.shapes[3].bsdf.reflectance, glm::dvec3(0.57, 0.04, 0.05)) << "the left wall refers to red";
+    EXPECT_EQ(scene.shapes[5].radiance, glm::dvec3(18.4, 15.6, 8.0));
+    ASSERT_TRUE(scene.media.at(0).density.has_value());
+    EXPECT_EQ(scene.media[0].density->volume.density.resolution(), glm::uvec3(128, 128, 50));
+    // translate(-.5), scale(1.5, 1.5, .6), translate(0, -.15, 0): the corner lands at (-.75, -.9, -.3).
+    EXPECT_NEAR(scene.media[0].density->toWorld[3].y, -0.9, 1e-15);
+    EXPECT_EQ(scene.media[0].sigmaT, glm::dvec3(60.0));
+}
+
+TEST(BenchmarkScene, FogSmallLightReads) {
+    const std::filesystem::path file = kShared / "benchmark/fog_small_light.xml";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
+    const SceneDescription scene = readScene(file);
+    ASSERT_EQ(scene.shapes.size(), 4u);
+    EXPECT_EQ(scene.shapes[2].center, glm::dvec3(0.7, 1.1, 0.2));
+    EXPECT_EQ(scene.shapes[2].radiance, glm::dvec3(400, 340, 260));
+    EXPECT_EQ(scene.shapes[3].toWorld[0][0], 3.0);
+}
+
+TEST(BenchmarkScene, WdasSunSkyReads) {
+    const std::filesystem::path file = kShared / "benchmark/wdas_sun_sky.xml";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
+    const SceneDescription scene = readScene(file);
+    ASSERT_EQ(scene.emitters.size(), 2u);
+    EXPECT_NEAR(glm::length(scene.emitters[0].vector), 1.0, 1e-15);
+    EXPECT_EQ(scene.media.at(0).density->volume.density.resolution(), glm::uvec3(126, 86, 154));
+}
+
+TEST(BenchmarkScene, WithEnvironmentMapIsRefusedAtItsType) {
+    expectRefused(kShared / "benchmark/hdr_sky_only.xml", 21, 20, "envmap", "constant, directional, point");
+}
+
+TEST(BenchmarkScene, BunnyIsRefusedAtItsEnvironmentMap) {
+    expectRefused(kShared / "benchmark/bunny_hdr_sky.xml", 24, 20, "envmap", "constant, directional, point");
+}
+
+TEST(MitsubaTestScene, HeteroIsRefusedAtItsEnvironmentMap) {
+    expectRefused(kMitsuba / "test_hetero_sigmat_volpath.xml", 6, 20, "envmap", "constant, directional, point");
+}
+
+TEST(MitsubaTestScene, HomoIsRefusedAtItsEnvironmentMap) {
+    expectRefused(kMitsuba / "test_homo_null_envmap_volpath.xml", 6, 20, "envmap", "constant, directional, point");
+}
+
+TEST(MitsubaTestScene, BackgroundIsRefusedAtItsCheckerboard) {
+    const std::filesystem::path included = kMitsuba / "include/test-scene-base.xml";
+    if (!std::filesystem::exists(included)) GTEST_SKIP() << "needs " << included;
+    try {
+        readText("<scene version=\"3.0.0\"><path value=\"" + kMitsuba.string() +
+                 "\"/><default name=\"integrator\" value=\"volpath\"/><include "
+                 "filename=\"include/test-scene-base.xml\"/></scene>");
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.where().text(), SourceLocation({included.string(), 41, 13}).text()) << error.what();
+        EXPECT_NE(std::string(error.what()).find("\"checkerboard\" is not supported"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(MitsubaTestScene, WithoutTexturesReads) {
+    for (const char* name : {"hetero_sigmat.xml", "homo_null.xml"}) {
+        const std::filesystem::path file = std::filesystem::path(PARHELION_ROOT) / "tests/references" / name;
+        if (!std::filesystem::exists(kMitsuba)) GTEST_SKIP() << "needs " << kMitsuba;
+        const SceneDescription scene = readScene(file, {.defines = {{"size", "32"}}});
+        EXPECT_EQ(scene.shapes.size(), 3u);
+        EXPECT_EQ(scene.film.size, glm::uvec2(32));
+        EXPECT_NEAR(scene.camera.fovXDegrees, 34.022056579589844, 1e-5);  // Mitsuba's, in single precision
+        EXPECT_EQ(scene.integrator.maxDepth, 6);
+    }
+}
+
+}  // namespace
+}  // namespace parhelion::test

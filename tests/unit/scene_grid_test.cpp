@@ -1,0 +1,87 @@
+// Media whose density or albedo comes from a volume file.
+#include <gtest/gtest.h>
+
+#include "support/scene_reading.h"
+#include "volume/volume_file.h"
+
+namespace parhelion::test {
+namespace {
+
+/// A two-voxel volume in a folder, and media that read it.
+class SceneGrid : public testing::Test {
+protected:
+    void writeGrid(const std::string& name, float first, float second) const {
+        Volume volume;
+        const float values[] = {first, second};
+        volume.density = DensityGrid::fromDense({2, 1, 1}, values);
+        volume.boundsMin = {1, 2, 3};
+        volume.boundsMax = {3, 3, 7};
+        writeVolume(folder_.path() / name, volume);
+    }
+
+    SceneDescription read(const std::string& mediumContent) const {
+        return readScene(folder_.write("scene.xml", sceneOf(R"(<shape type="cube"><bsdf type="null"/>
+<medium type="heterogeneous" name="interior">)" + mediumContent +
+                                                            "</medium></shape>")));
+    }
+
+    const TemporaryFolder folder_;
+};
+
+TEST_F(SceneGrid, IsReadFromItsFileAndPlaced) {
+    writeGrid("d.vol", 0.25f, 1.0f);
+    const SceneDescription scene = read(R"(<float name="scale" value="60"/><volume name="sigma_t" type="gridvolume">
+<string name="filename" value="d.vol"/><transform name="to_world"><translate x="-0.5"/></transform></volume>
+<volume name="albedo" type="constvolume"><rgb name="value" value="0.9, 0.8, 0.7"/></volume>)");
+    const MediumDescription& medium = scene.media.at(0);
+    ASSERT_TRUE(medium.density.has_value());
+    EXPECT_EQ(medium.density->volume.density.maximum(), 1.0f);
+    EXPECT_EQ(medium.density->toWorld[3], glm::dvec4(-0.5, 0, 0, 1)) << "the file's bounds are not asked for";
+    EXPECT_EQ(medium.sigmaT, glm::dvec3(60.0)) << "extinction at density 1";
+    EXPECT_EQ(medium.albedo, glm::dvec3(0.9, 0.8, 0.7));
+}
+
+TEST_F(SceneGrid, FollowsTheBoundsOfTheFileWhenAskedTo) {
+    writeGrid("d.vol", 0.25f, 1.0f);
+    const SceneDescription scene =
+        read(R"(<volume name="sigma_t" type="gridvolume"><string name="filename" value="d.vol"/>
+<boolean name="use_grid_bbox" value="true"/><transform name="to_world"><scale value="2"/></transform></volume>)");
+    const glm::dmat4& toWorld = scene.media.at(0).density->toWorld;
+    // Grid-local (0, 0, 0) and (1, 1, 1) are the corners (1, 2, 3) and (3, 3, 7), then doubled.
+    EXPECT_EQ(toWorld * glm::dvec4(0, 0, 0, 1), glm::dvec4(2, 4, 6, 1));
+    EXPECT_EQ(toWorld * glm::dvec4(1, 1, 1, 1), glm::dvec4(6, 6, 14, 1));
+}
+
+TEST_F(SceneGrid, OfAlbedoMustStayInTheUnitInterval) {
+    writeGrid("a.vol", 0.5f, 1.0f);
+    writeGrid("b.vol", 0.5f, 1.5f);
+    const auto albedo = [](const std::string& file) {
+        return "<volume name=\"albedo\" type=\"gridvolume\">\n<string name=\"filename\" value=\"" + file +
+               "\"/></volume>";
+    };
+    EXPECT_TRUE(read(albedo("a.vol")).media.at(0).albedoGrid.has_value());
+    try {
+        read(albedo("b.vol"));
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.where().line, 4);
+        EXPECT_NE(std::string(error.what()).find("1.5"), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(SceneGrid, OfExtinctionMustHaveOneChannel) {
+    Volume volume;
+    volume.channels = 3;
+    volume.color = {{1, 1, 1}, {0.1f, 0.2f, 0.3f}};
+    writeVolume(folder_.path() / "rgb.vol", volume);
+    try {
+        read("<volume name=\"sigma_t\" type=\"gridvolume\">\n<string name=\"filename\" value=\"rgb.vol\"/></volume>");
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.where().line, 4);
+        EXPECT_NE(std::string(error.what()).find("one channel"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace parhelion::test

@@ -1,0 +1,148 @@
+"""Each structure check accepts a small sound tree and finds a violation seeded into it."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from source_text import functions
+
+TOOLS = pathlib.Path(__file__).parent
+
+SHADER = """// Phase functions.
+#ifndef VOLUME_PHASE_GLSL
+#define VOLUME_PHASE_GLSL
+
+layout(set = 0, binding = 1, scalar) readonly buffer Lobes { float lobes[]; };
+
+// Brace { and quote ' in a comment.
+float evalPhase(float mu) {
+    if (mu > 0.0) { return mu; }
+    return 0.0;
+}
+
+// Shader only: lanes.
+uint lane() { return 0u; }
+
+float samplePhase(float u) { return u; }
+#endif
+"""
+TWIN = """#pragma once
+#include "base/math.h"
+
+namespace parhelion::reference {
+
+struct Lobe { float g = 0; };
+
+template <typename Real>
+Real evalPhase(Real mu) {
+    const auto positive = [](Real x) { return x > 0; };
+    return positive(mu) ? mu : 0 * 1'000;
+}
+
+/// Reference only: text.
+inline const char* name() { return "{"; }
+
+template <typename Real>
+Real samplePhase(Real u) { return u; }
+
+}  // namespace parhelion::reference
+"""
+
+
+class Checks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        self.write("shaders/volume/phase.glsl", SHADER)
+        self.write("host/reference/volume/phase.h", TWIN)
+        self.write("host/base/math.h", "#pragma once\n#include <cmath>\n")
+        self.write("host/gpu/device.cpp", '#include <volk.h>\n#include "base/math.h"\n')
+
+    def write(self, name, text):
+        file = self.root / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+
+    def run_check(self, name):
+        return subprocess.run([sys.executable, TOOLS / name, self.root], capture_output=True, text=True)
+
+    def assert_finds(self, name, *words):
+        result = self.run_check(name)
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        for word in words:
+            self.assertIn(word, result.stdout)
+
+    def test_sound_tree_passes(self):
+        for name in ("check_floors.py", "check_mirror.py", "check_sizes.py"):
+            result = self.run_check(name)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_floors_finds_an_include_of_a_floor_above(self):
+        self.write("host/base/text.h", '#include "reference/volume/phase.h"\n')
+        self.assert_finds("check_floors.py", "host/base/text.h:1", "reference/volume/phase.h")
+
+    def test_floors_finds_reference_reading_the_renderer(self):
+        self.write("host/render/film.h", "")
+        self.write("host/reference/volume/more.h", '\n#include "../../render/film.h"\n')
+        self.assert_finds("check_floors.py", "host/reference/volume/more.h:2", "render/film.h")
+
+    def test_floors_finds_vulkan_outside_gpu(self):
+        self.write("host/render/pass.cpp", "#include <vulkan/vulkan.h>\n")
+        self.assert_finds("check_floors.py", "host/render/pass.cpp:1", "vulkan")
+
+    def test_floors_finds_shader_code_in_the_reference(self):
+        self.write("host/reference/volume/more.h", '#include "volume/phase.glsl"\n')
+        self.assert_finds("check_floors.py", "only shaders/shared")
+
+    def test_mirror_finds_a_missing_twin(self):
+        self.write("shaders/light/sky.glsl", "float sky() { return 1.0; }\n")
+        self.assert_finds("check_mirror.py", "shaders/light/sky.glsl", "no twin")
+
+    def test_mirror_finds_functions_in_another_order(self):
+        swapped = TWIN.replace("evalPhase", "?").replace("samplePhase", "evalPhase").replace("?", "samplePhase")
+        self.write("host/reference/volume/phase.h", swapped)
+        self.assert_finds("check_mirror.py", "the shader has evalPhase where the reference has samplePhase")
+
+    def test_mirror_finds_a_function_that_lost_its_mark(self):
+        self.write("shaders/volume/phase.glsl", SHADER.replace("// Shader only: lanes.\n", ""))
+        self.assert_finds("check_mirror.py", "the shader has lane")
+
+    def test_mirror_exempts_a_marked_file(self):
+        self.write("shaders/light/state.glsl", "// Path state.\n// Shader only: lanes.\n\nuint s() { return 0u; }\n")
+        self.assertEqual(self.run_check("check_mirror.py").returncode, 0)
+
+    def test_sizes_finds_a_long_function(self):
+        self.write("host/base/long.cpp", "int f() {\n" + "    ;\n" * 39 + "}\n")
+        self.assert_finds("check_sizes.py", "host/base/long.cpp:1: f has 41 lines")
+
+    def test_sizes_finds_a_long_method(self):
+        self.write("host/base/long.h", "class C : public B {\npublic:\n    int f() const {\n" + "    ;\n" * 39 + "    }\n};\n")
+        self.assert_finds("check_sizes.py", "host/base/long.h:3: f has 41 lines")
+
+    def test_sizes_finds_long_files(self):
+        self.write("shaders/light/sky.glsl", "\n" * 151)
+        self.write("shaders/kernels/path.comp", "\n" * 41)
+        self.write("host/base/long.cpp", "\n" * 301)
+        self.assert_finds("check_sizes.py", "sky.glsl: 151", "path.comp: 41", "long.cpp: 301")
+
+    def test_functions_are_told_from_what_looks_like_them(self):
+        text = """
+            int values[] = {1, 2};
+            const auto lambda = [](int x) { return x; };
+            enum class Kind { A, B };
+            Film::Film(int size) : size_(size), pixels_{size}, more_{} {
+                grow();
+            }
+            bool Film::operator==(const Film& o) const { return true; }
+            static std::vector<std::pair<int, int>> pairs(std::function<void(int)> f) noexcept { while (f) { } }
+            TEST(Suite, Property) { EXPECT_EQ(R"({)", "}"); }
+        """
+        self.assertEqual([(f.name, f.lines) for f in functions(text)],
+                         [("Film", 3), ("operator==", 1), ("pairs", 1), ("TEST", 1)])
+
+
+if __name__ == "__main__":
+    unittest.main()

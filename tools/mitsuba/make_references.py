@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""Renders the reference images of tests/references with Mitsuba 3, an independent renderer.
+
+Each image is the mean of K renders with independent seeds. The channels R, G, B hold the mean and
+variance.R, variance.G, variance.B the variance of that mean, estimated over the K renders: a
+comparison has K - 1 degrees of freedom. The header keeps `seeds` (K) and `samplesPerPixel` (over all
+seeds), and what rendered it.
+
+Needs `pip install mitsuba` and a libLLVM (Debian: libllvm19) named by DRJIT_LIBLLVM_PATH.
+
+    tools/mitsuba/make_references.py                     # every scene
+    tools/mitsuba/make_references.py furnace --minutes 5 # one scene, at most five minutes
+"""
+
+import argparse
+import os
+import pathlib
+import sys
+import time
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+REFERENCES = ROOT / "tests" / "references"
+BENCHMARK = ROOT.parent / "shared" / "benchmark"
+
+# Samples per pixel of one seed: its wavefront, size^2 * spp paths, has to fit in memory.
+SCENES = {
+    "wdas_sun_sky": (BENCHMARK / "wdas_sun_sky.xml", 64),
+    "cornell_cloud": (BENCHMARK / "cornell_cloud.xml", 64),
+    "fog_small_light": (BENCHMARK / "fog_small_light.xml", 256),
+    "furnace": (BENCHMARK / "furnace.xml", 64),
+    "hetero_sigmat": (REFERENCES / "hetero_sigmat.xml", 64),
+    "homo_null": (REFERENCES / "homo_null.xml", 64),
+}
+TARGET_ERROR = 1e-3  # standard error of the image mean, relative
+MINIMUM_SEEDS = 16
+
+
+class Moments:
+    """Per-pixel mean and variance over seeds, and the image mean of each seed (Welford)."""
+
+    def __init__(self):
+        self.count = 0
+        self.mean = self.squares = 0.0
+        self.image_means = []
+
+    def add(self, image):
+        self.count += 1
+        delta = image - self.mean
+        self.mean = self.mean + delta / self.count
+        self.squares = self.squares + delta * (image - self.mean)
+        self.image_means.append(image.mean(axis=(0, 1)))
+
+    def variance_of_mean(self):
+        return self.squares / ((self.count - 1) * self.count)
+
+    def image_error(self):
+        """Standard error of the image mean, per channel, from its spread over the seeds."""
+        return np.std(self.image_means, axis=0, ddof=1) / np.sqrt(self.count)
+
+
+def render(mi, file, size, spp, minutes):
+    """Adds seeds until the image mean is known to TARGET_ERROR or the time is over."""
+    scene = mi.load_file(str(file), size=size, spp=spp)
+    moments = Moments()
+    end = time.monotonic() + 60 * minutes
+    while True:
+        image = np.array(mi.render(scene, spp=spp, seed=1 + moments.count), dtype=np.float64)
+        moments.add(image[:, :, :3])
+        if moments.count < MINIMUM_SEEDS:
+            continue
+        if (moments.image_error() <= TARGET_ERROR * moments.mean.mean(axis=(0, 1))).all():
+            return moments
+        if time.monotonic() > end:
+            return moments
+
+
+def write(mi, moments, spp, file):
+    data = np.concatenate([moments.mean, moments.variance_of_mean()], axis=2).astype(np.float32)
+    names = ["R", "G", "B", "variance.R", "variance.G", "variance.B"]
+    bitmap = mi.Bitmap(data, mi.Bitmap.PixelFormat.MultiChannel, names)
+    metadata = bitmap.metadata()
+    metadata["seeds"] = moments.count
+    metadata["samplesPerPixel"] = spp * moments.count
+    metadata["generatedBy"] = f"Mitsuba {mi.__version__} {mi.variant()}"
+    unfinished = file.with_suffix(".unfinished.exr")
+    bitmap.write(str(unfinished))
+    unfinished.replace(file)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="of " + ", ".join(SCENES))
+    parser.add_argument("--size", type=int, default=64, help="width and height in pixels")
+    parser.add_argument("--minutes", type=float, default=3.0, help="time after which a scene takes no more seeds")
+    parser.add_argument("--variant", default="llvm_ad_rgb")
+    arguments = parser.parse_args()
+    unknown = set(arguments.scenes) - set(SCENES)
+    if unknown:
+        parser.error(f"no scene {', '.join(sorted(unknown))}; there are {', '.join(SCENES)}")
+
+    os.environ.setdefault("DRJIT_LIBLLVM_PATH", "/usr/lib/x86_64-linux-gnu/libLLVM-19.so")
+    import mitsuba as mi
+
+    mi.set_variant(arguments.variant)
+    for name in arguments.scenes or SCENES:
+        file, spp = SCENES[name]
+        if not file.exists():
+            sys.exit(f"{file}: missing")
+        start = time.monotonic()
+        moments = render(mi, file, arguments.size, spp, arguments.minutes)
+        write(mi, moments, spp, REFERENCES / f"{name}.exr")
+        mean, error = moments.mean.mean(axis=(0, 1)), moments.image_error()
+        print(f"{name}: {moments.count} seeds of {spp} spp, {time.monotonic() - start:.0f} s; image mean",
+              " ".join(f"{m:.5f} +- {100 * e / m:.2f} %" for m, e in zip(mean, error)), flush=True)
+
+
+if __name__ == "__main__":
+    main()
