@@ -11,6 +11,7 @@
 #include "app/render_report.h"
 #include "app/text_format.h"
 #include "base/files.h"
+#include "base/memory.h"
 #include "compile/compile_scene.h"
 #include "image/film_image.h"
 
@@ -51,6 +52,19 @@ void requireInside(const PixelRect& crop, glm::uvec2 film) {
     if (crop.offset.x + crop.size.x > film.x || crop.offset.y + crop.size.y > film.y)
         throw InputError(fmt::format("--crop: must lie inside the film of {}; got {},{},{}", formatSize(film),
                                      crop.offset.x, crop.offset.y, formatSize(crop.size)));
+}
+
+/// The system may promise more memory than there is and end the process when it is used: ask first.
+void requireMemory(glm::uvec2 pixels) {
+    constexpr std::size_t kImageChannels = 14;  // those of toImage
+    // The film is held by the back end and, at the end, copied from it.
+    constexpr double kBytesPerPixel =
+        2 * (sizeof(shared::FilmPixel) + sizeof(shared::FeaturePixel)) + kImageChannels * sizeof(float);
+    const double needed = kBytesPerPixel * pixels.x * pixels.y;
+    const double allowed = 0.5 * static_cast<double>(physicalMemoryBytes());
+    if (needed > allowed)
+        throw InputError(fmt::format("film of {} needs {}, half of the memory is {}: --size or --crop make it smaller",
+                                     formatSize(pixels), formatBytes(needed), formatBytes(allowed)));
 }
 
 CompiledScene compile(const RenderArguments& arguments) {
@@ -141,6 +155,7 @@ int runRenderCommand(const RenderArguments& arguments) {
     if (arguments.backend != Backend::Vulkan) refuseVulkanOptions(arguments);
     const OutputFiles files = prepareOutputs(arguments);
     const CompiledScene scene = compile(arguments);
+    requireMemory(scene.cropSize);
     const RenderSettings settings = chooseSettings(arguments, scene);
     if (!arguments.quiet)
         for (const std::string& note : scene.notes) fmt::print(stderr, "parhelion: note: {}\n", note);

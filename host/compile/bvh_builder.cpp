@@ -48,7 +48,7 @@ struct Split {
 };
 
 constexpr int kBins = 16;
-// One step down costs about as much as two triangles tested.
+// In triangle tests: a step down tests two boxes.
 constexpr double kStepCost = 2.0;
 
 class Builder {

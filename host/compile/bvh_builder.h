@@ -23,8 +23,8 @@ inline constexpr unsigned kMaxBvhDepth = 46;
 /// Builds a hierarchy by the surface area heuristic over bins, falling back to halves where the heuristic would grow
 /// deeper than kMaxBvhDepth or cannot tell the triangles apart.
 ///
-/// Every box encloses its triangles with a margin of 8 roundings (2^-24) of the largest coordinate, so that a traversal in
-/// float misses nothing. Deterministic. Vertices must be finite; at most 2^28 triangles.
+/// Every box encloses its triangles with a margin of 8 roundings (2^-24) of the largest coordinate, so that a traversal
+/// in float misses nothing. Deterministic. Vertices must be finite; at most 2^28 triangles.
 ///
 /// Source: Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies".
 Bvh buildBvh(std::span<const TriangleVertices> triangles);

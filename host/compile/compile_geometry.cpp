@@ -84,19 +84,21 @@ shared::Quad makeQuad(const PlacedShape& shape, std::uint32_t index) {
     return quad;
 }
 
-shared::Sphere makeSphere(const PlacedShape& shape, std::uint32_t index) {
+shared::Sphere makeSphere(const PlacedShape& shape, std::uint32_t index, std::uint32_t flags) {
     shared::Sphere sphere{};
     sphere.center = toFloat(shape.center, shape.source->where, nameOf(*shape.source) + ": center");
     sphere.radius = toFloat(glm::dvec3(shape.radius), shape.source->where, nameOf(*shape.source) + ": radius").x;
     sphere.shape = index;
+    sphere.flags = flags;
     return sphere;
 }
 
-shared::Box makeBox(const PlacedShape& shape, std::uint32_t index) {
+shared::Box makeBox(const PlacedShape& shape, std::uint32_t index, std::uint32_t flags) {
     shared::Box box{};
     box.localFromWorld =
         toFloat(glm::inverse(shape.toScene), shape.source->where, nameOf(*shape.source) + ": inverse of to_world");
     box.shape = index;
+    box.flags = flags;
     return box;
 }
 
@@ -122,13 +124,14 @@ void checkTriangleCount(const TriangleSoup& soup) {
 
 void appendAnalytic(const PlacedShape& shape, std::uint32_t index, CompiledScene& scene) {
     shared::SceneConstants& constants = scene.constants;
+    const std::uint32_t flags = scene.shapes[index].flags;
     if (shape.kind == Kind::Quad) constants.quads[constants.quadCount++] = makeQuad(shape, index);
-    if (shape.kind == Kind::Box) constants.boxes[constants.boxCount++] = makeBox(shape, index);
+    if (shape.kind == Kind::Box) constants.boxes[constants.boxCount++] = makeBox(shape, index, flags);
     if (shape.kind != Kind::Sphere) return;
     if (constants.sphereCount == shared::kMaxSpheres)
         throw InputError(shape.source->where,
                          fmt::format("a scene may have at most {} spheres; use meshes for more", shared::kMaxSpheres));
-    constants.spheres[constants.sphereCount++] = makeSphere(shape, index);
+    constants.spheres[constants.sphereCount++] = makeSphere(shape, index, flags);
 }
 
 }  // namespace

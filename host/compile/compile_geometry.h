@@ -21,7 +21,7 @@ struct EmissiveGeometry {
     std::vector<std::uint32_t> triangles;     ///< meshes and tessellated shapes: primitive ids
 };
 
-/// Quads and boxes are tested one by one by every ray, which pays up to about this many; the rest become triangles.
+/// Every ray tests every quad and box; beyond this many, the rest become triangles under the BVH.
 inline constexpr std::size_t kMaxFlatPrimitives = 24;
 
 /// Writes shapes (all but `light`), quads, spheres, boxes, and triangles under a BVH.

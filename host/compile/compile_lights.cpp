@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "compile/transforms.h"
 #include "compile/triangle_soup.h"
@@ -60,8 +62,7 @@ public:
         // From outside, where it would be sampled, a sphere that emits inwards is dark.
         const bool inwards =
             light.type == shared::kLightSphere && (scene_.shapes[shapeIndex].flags & shared::kShapeFlipNormal) != 0;
-        scene_.shapes[shapeIndex].light = scene_.constants.lightCount;
-        append(light, inwards ? 0.0 : kPi * area * luminance(radiance), source.where);
+        append({light, inwards ? 0.0 : kPi * area * luminance(radiance), shapeIndex}, source.where);
     }
 
     void addEmitter(const EmitterDescription& emitter) {
@@ -76,29 +77,48 @@ public:
             case EmitterDescription::Type::Directional:
                 light.type = shared::kLightDirectional;
                 light.vector = glm::vec3(glm::normalize(emitter.vector));
-                return append(light, flux * kPi * radius_ * radius_, emitter.where);
+                return append({light, flux * kPi * radius_ * radius_, shared::kNone}, emitter.where);
             case EmitterDescription::Type::Point:
                 light.type = shared::kLightPoint;
                 light.vector = toFloat(emitter.vector - scene_.worldOrigin, emitter.where, name + ": position");
-                return append(light, 4.0 * kPi * flux, emitter.where);
+                return append({light, 4.0 * kPi * flux, shared::kNone}, emitter.where);
             case EmitterDescription::Type::Constant:
                 light.type = shared::kLightEnvironment;
-                scene_.constants.environment = scene_.constants.lightCount;
-                return append(light, sampleEveryLight_ ? 4.0 * kPi * kPi * radius_ * radius_ * flux : 0.0,
-                              emitter.where);
+                scene_.constants.environmentRadiance = light.emission;
+                return append(
+                    {light, sampleEveryLight_ ? 4.0 * kPi * kPi * radius_ * radius_ * flux : 0.0, shared::kNone},
+                    emitter.where);
         }
     }
 
-    void finish() { assignSelection(powers_, std::span(scene_.constants.lights).first(scene_.constants.lightCount)); }
+    /// Lights that are sampled come first, so that the others need no place in the search.
+    void finish() {
+        std::ranges::stable_partition(pending_, [](const Pending& light) { return light.power > 0.0; });
+        shared::SceneConstants& constants = scene_.constants;
+        std::vector<double> powers;
+        for (const Pending& pending : pending_) {
+            const std::uint32_t index = constants.lightCount++;
+            constants.lights[index] = pending.light;
+            powers.push_back(pending.power);
+            if (pending.shape != shared::kNone) scene_.shapes[pending.shape].light = index;
+            if (pending.light.type == shared::kLightEnvironment) constants.environment = index;
+        }
+        assignSelection(powers, std::span(constants.lights).first(constants.lightCount));
+    }
 
 private:
+    struct Pending {
+        shared::Light light;
+        double power;         ///< 0: never sampled
+        std::uint32_t shape;  ///< that emits it, or kNone
+    };
+
     void noteBlack(const std::string& name) { scene_.notes.push_back(fmt::format("{}: its light is black", name)); }
 
-    void append(const shared::Light& light, double power, const SourceLocation& where) {
-        if (scene_.constants.lightCount == shared::kMaxLights)
+    void append(const Pending& light, const SourceLocation& where) {
+        if (pending_.size() == shared::kMaxLights)
             throw InputError(where, fmt::format("a scene may have at most {} lights", shared::kMaxLights));
-        scene_.constants.lights[scene_.constants.lightCount++] = light;
-        powers_.push_back(power);
+        pending_.push_back(light);
     }
 
     /// Type, primitive and triangle list. Returns the area.
@@ -139,7 +159,7 @@ private:
     bool sampleEveryLight_;
     double radius_;
     CompiledScene& scene_;
-    std::vector<double> powers_;
+    std::vector<Pending> pending_;
 };
 
 void rejectSecondEnvironment(const SceneDescription& description) {

@@ -121,6 +121,7 @@ private:
 CompiledScene compileScene(const SceneDescription& description, const CompileOptions& options) {
     const std::size_t limit = options.memoryLimitBytes ? options.memoryLimitBytes : physicalMemoryBytes() / 2;
     CompiledScene scene;
+    scene.notes = description.notes;
     compileFilm(description, options, scene);
     compileCamera(description, scene);
     compileIntegrator(description, options, scene);
@@ -132,6 +133,10 @@ CompiledScene compileScene(const SceneDescription& description, const CompileOpt
     compileMedia(selection.media(), scene.worldOrigin, limit, scene);
     const std::vector<EmissiveGeometry> emissive = compileGeometry(selection.shapes(), scene);
     compileLights(description, selection.shapes(), emissive, options.sampleEveryLight, scene);
+    const std::size_t inlined = std::min<std::size_t>(scene.shapes.size(), shared::kMaxInlineShapes);
+    std::copy_n(scene.shapes.begin(), inlined, scene.constants.shapes);
+    const std::size_t inlineShapes = std::min<std::size_t>(scene.shapes.size(), shared::kMaxInlineShapes);
+    std::copy_n(scene.shapes.begin(), inlineShapes, scene.constants.shapes);
 
     if (scene.memoryBytes() > limit)
         throw RuntimeFailure(

@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "compile/compile_lights.h"
 
@@ -7,22 +7,21 @@ namespace parhelion {
 
 void assignSelection(std::span<const double> powers, std::span<shared::Light> lights) {
     double largest = 0.0;
-    std::size_t sampled = 0, last = 0;
-    for (std::size_t i = 0; i < powers.size(); ++i) {
-        largest = std::max(largest, powers[i]);
-        if (powers[i] > 0.0) ++sampled, last = i;
+    std::size_t sampled = 0;
+    for (const double power : powers) {
+        largest = std::max(largest, power);
+        sampled += power > 0.0;
     }
     double total = 0.0;  // in units of the largest: powers near the limits of double must not overflow
     for (const double power : powers) total += power > 0.0 ? power / largest : 0.0;
 
-    constexpr double kSteps = 0x1p24;
+    constexpr double kSteps = 0x1p24;  // the last step rounds to exactly 1: the sum is good to 1e-13
     double running = 0.0, previous = 0.0;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         if (powers[i] > 0.0) running += 0.5 / double(sampled) + 0.5 * (powers[i] / largest) / total;
-        const bool complete = sampled > 0 && i >= last;
-        const double cumulative = complete ? 1.0 : std::round(running * kSteps) / kSteps;
+        const double cumulative = std::round(running * kSteps) / kSteps;
         lights[i].cumulative = float(cumulative);
-        lights[i].selection = powers[i] > 0.0 ? float(cumulative - previous) : 0.0f;
+        lights[i].selection = float(cumulative - previous);
         previous = cumulative;
     }
 }

@@ -9,6 +9,7 @@ namespace parhelion::render {
 namespace {
 
 constexpr std::uint32_t kGroup = 64;  // local_size_x of the kernels
+constexpr std::uint32_t kMaximumCrossings = 256;  // medium boundaries in front of the first opaque surface
 
 std::uint32_t groupsCovering(std::uint32_t lanes) { return (lanes + kGroup - 1) / kGroup; }
 
@@ -60,7 +61,7 @@ std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const Comp
                                                   .cropSize = scene.cropSize, .firstPixel = first,
                                                   .laneCount = std::min(kLanes, pixels - first), .sampleLow = sample,
                                                   .sampleHigh = 0, .sampleCount = 1, .seed = settings.seed,
-                                                  .loopBudget = 0, .restart = 0};
+                                                  .loopBudget = kMaximumCrossings, .restart = 0};
             device.submit([&](VkCommandBuffer commands) {
                 pipeline.record(commands, std::as_bytes(std::span(&arguments, 1)), groupsCovering(arguments.laneCount));
             });

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "scene/scene_loader.h"
 #include "scene/suggestions.h"
 
@@ -49,6 +51,8 @@ std::filesystem::path SceneTree::resolveFile(const XmlAttribute& name) const {
     if (const auto file = findFile(name, folders_)) return *file;
     std::vector<std::string> searched;
     for (const std::filesystem::path& folder : folders_) searched.push_back(folder.empty() ? "." : folder.string());
+    const std::filesystem::path besides = std::filesystem::path(name.where.file).parent_path();
+    if (std::ranges::find(folders_, besides) == folders_.end()) searched.push_back(besides.string());
     throw InputError(name.where,
                      fmt::format("file \"{}\" not found; searched in: {}", name.value, fmt::join(searched, ", ")));
 }

@@ -1,3 +1,5 @@
+// Both codecs everywhere: IO.h instantiates one template differently by these macros.
+#define NANOVDB_USE_BLOSC
 #define NANOVDB_USE_ZIP
 
 #include <fmt/format.h>

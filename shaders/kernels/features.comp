@@ -1,4 +1,5 @@
 // A lane a pixel: `sampleCount` camera rays of one pixel into the feature film.
+// loopBudget: boundaries a ray may cross; not a constant, which would unroll the loop.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -22,7 +23,7 @@ void main() {
     for (uint i = 0u; i < arguments.sampleCount; ++i) {
         uvec2 key = pathKey(pixelIndex, arguments.sampleLow + i, arguments.sampleHigh, arguments.seed);
         uvec4 word = draw(key, 0u, kDrawFeature);
-        ok = addFeature(sums, pixel, vec2(toUniform(word.x), toUniform(word.y)), tests, 64u) && ok;
+        ok = addFeature(sums, pixel, vec2(toUniform(word.x), toUniform(word.y)), tests, arguments.loopBudget) && ok;
     }
     features[index] = sums;
     if (!ok) atomicAdd(counters[kCounterBvhOverflow], 1u);

@@ -125,7 +125,9 @@ TEST_F(RenderCommand, InspectTellsEveryEffectWithItsReason) {
     for (const json& effect : scene["effects"]) {
         EXPECT_NE(effect["reason"], "") << effect["name"];
         if (effect["name"] == "hasHomogeneousMedia") media = effect["simulated"];
-        if (effect["name"] == "hasTriangles") { EXPECT_EQ(effect["simulated"], false); }
+        if (effect["name"] == "hasTriangles") {
+            EXPECT_EQ(effect["simulated"], false);
+        }
     }
     EXPECT_TRUE(media);
     EXPECT_EQ(scene["boxes"], 1);

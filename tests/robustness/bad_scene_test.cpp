@@ -58,7 +58,7 @@ std::vector<BadScene> badScenes() {
         replaced("NegativeScale", M, medium("<float name=\"scale\" value=\"-3\"/>"), "scale", "-3"),
         replaced("AlbedoAboveOne", M, medium("<rgb name=\"albedo\" value=\"0.5, 1.5, 0.5\"/>"), "albedo", "1.5"),
         replaced("SingularTransform", S,
-                 cube("<transform name=\"to_world\"><scale x=\"1\" y=\"0\" z=\"1\"/></transform>"), "to_world",
+                 cube("<transform name=\"to_world\"><scale x=\"1\" y=\"0\" z=\"1\"/></transform>"), "y=\"0\"",
                  "singular"),
         replaced("NanTransform", S, cube("<transform name=\"to_world\"><translate x=\"nan\"/></transform>"), "nan",
                  "nan"),

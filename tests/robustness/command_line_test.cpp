@@ -26,15 +26,9 @@ BadUsage badRender(std::string name, const Arguments& more, std::string message)
     return {std::move(name), arguments, std::move(message)};
 }
 
-std::vector<BadUsage> badUsages() {
+std::vector<BadUsage> badValues() {
     const std::string kSize = "--size: expected WIDTHxHEIGHT, each 1..65536; got ";
     return {
-        {"NoCommand", {}, "subcommand"},
-        {"UnknownCommand", {"rendre", "scene.xml"}, "rendre"},
-        {"NoScene", {"render"}, "SCENE"},
-        badRender("UnknownOption", {"--sp", "4"}, "--sp"),
-        badRender("MissingValue", {"--spp"}, "--spp"),
-        badRender("RepeatedOption", {"--spp", "4", "--spp", "8"}, "--spp"),
         badRender("ZeroSize", {"--size", "0x5"}, kSize + "0x5"),
         badRender("NegativeSize", {"--size", "-4x5"}, kSize + "-4x5"),
         badRender("HugeSize", {"--size", "65537x1"}, kSize + "65537x1"),
@@ -57,6 +51,19 @@ std::vector<BadUsage> badUsages() {
         badRender("EmptyCrop", {"--crop", "1,2,0x4"}, "--crop: expected X,Y,WIDTHxHEIGHT"),
         badRender("CropOutside", {"--crop", "10,0,8x8"}, "--crop: must lie inside the film of 16x12; got 10,0,8x8"),
         badRender("DeviceForReference", {"--backend", "reference", "--device", "0"}, "--device: only --backend vulkan"),
+    };
+}
+
+std::vector<BadUsage> badUses() {
+    return {
+        {"NoCommand", {}, "subcommand"},
+        {"UnknownCommand", {"rendre", "scene.xml"}, "expected a command: render, inspect, compare"},
+        {"NoScene", {"render"}, "SCENE"},
+        badRender("UnknownOption", {"--sp", "4"}, "--sp"),
+        badRender("MissingValue", {"--spp"}, "--spp"),
+        badRender("RepeatedOption", {"--spp", "4", "--spp", "8"}, "--spp"),
+        // 4 Gi pixels: about a terabyte.
+        badRender("FilmBeyondMemory", {"--size", "65536x65536"}, "film of 65536x65536 needs "),
         badRender("NoExr", {"-o", "image.jpg"}, ".exr"),
         badRender("OutputInMissingFolder", {"-o", "missing/image.exr"}, "missing/image.exr"),
         badRender("OutputIsFolder", {"-o", "folder.exr"}, "folder.exr"),
@@ -86,8 +93,9 @@ TEST_P(CommandLine, RefusesBadUsage) {
     EXPECT_EQ(folder.names(), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Usages, CommandLine, testing::ValuesIn(badUsages()),
-                         [](const auto& info) { return info.param.name; });
+const auto kUsageName = [](const auto& info) { return info.param.name; };
+INSTANTIATE_TEST_SUITE_P(Values, CommandLine, testing::ValuesIn(badValues()), kUsageName);
+INSTANTIATE_TEST_SUITE_P(Uses, CommandLine, testing::ValuesIn(badUses()), kUsageName);
 
 TEST(CommandLineHelp, ShowsExamplesForEveryCommand) {
     const TemporaryFolder folder;

@@ -76,6 +76,11 @@ std::vector<BadText> badDirectives() {
          {"malformed XML"},
          {{"b.xml", "<scene version=\"3.0.0\">\n</@@shape>"}}},
         {"PathIsNoFolder", sceneOf("<path value=\"@@no/such\"/>"), {"must name a folder"}},
+    };
+}
+
+std::vector<BadText> badReferences() {
+    return {
         {"UndefinedReference",
          sphereOf("<ref id=\"@@whit\"/></shape><bsdf type=\"diffuse\" id=\"white\"/><shape type=\"cube\">"),
          {"no object has the id \"whit\"", "did you mean \"white\"?"}},
@@ -116,6 +121,7 @@ TEST_P(SceneError, NamesTheCauseAndItsPlace) { expectRefused(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Malformed, SceneError, testing::ValuesIn(malformedScenes()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Directives, SceneError, testing::ValuesIn(badDirectives()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(References, SceneError, testing::ValuesIn(badReferences()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Transforms, SceneError, testing::ValuesIn(badTransforms()), nameOfBadText);
 
 TEST(SceneErrorScale, DoublingIncludesEndInAnError) {

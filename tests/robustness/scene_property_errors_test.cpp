@@ -30,7 +30,7 @@ std::vector<BadText> badValues() {
     };
 }
 
-std::vector<BadText> badSurfacesAndLights() {
+std::vector<BadText> badSurfaces() {
     return {
         {"ColorWithTwoNumbers", diffuseOf("<rgb name=\"reflectance\" value=\"@@0.1, 0.2\"/>"), {"three numbers"}},
         {"BadHexColor", diffuseOf("<rgb name=\"reflectance\" value=\"@@#ff00\"/>"), {"#rrggbb"}},
@@ -50,6 +50,14 @@ std::vector<BadText> badSurfacesAndLights() {
         {"KnownToMitsubaOnly", sceneOf("<shape type=\"@@cylinder\"/>"), {"obj, rectangle, cube, sphere"}},
         {"EnvironmentMap", sceneOf("<emitter type=\"@@envmap\"/>"), {"constant, directional, point"}},
         {"GlossySurface", sphereOf("<bsdf type=\"@@roughconductor\"/>"), {"diffuse, null, twosided"}},
+        {"TwoSurfaces", sphereOf("<bsdf type=\"diffuse\"/>@@<bsdf type=\"null\"/>"), {"only one <bsdf>"}},
+        {"TwoSidedNull", sphereOf("<bsdf type=\"twosided\">@@<bsdf type=\"null\"/></bsdf>"), {"diffuse", "null"}},
+        {"PhaseInShape", sphereOf("@@<phase type=\"hg\"/>"), {"<phase> is not allowed here"}},
+    };
+}
+
+std::vector<BadText> badLights() {
+    return {
         {"NegativeRadiance",
          sceneOf("<emitter type=\"constant\"><rgb name=\"radiance\" value=\"@@1 -1 1\"/></emitter>"),
          {"got -1"}},
@@ -67,9 +75,6 @@ std::vector<BadText> badSurfacesAndLights() {
          sceneOf("<emitter type=\"directional\"><vector name=\"direction\" value=\"0 0 1\"/>@@<transform "
                  "name=\"to_world\"/></emitter>"),
          {"not both"}},
-        {"TwoSurfaces", sphereOf("<bsdf type=\"diffuse\"/>@@<bsdf type=\"null\"/>"), {"only one <bsdf>"}},
-        {"TwoSidedNull", sphereOf("<bsdf type=\"twosided\">@@<bsdf type=\"null\"/></bsdf>"), {"diffuse", "null"}},
-        {"PhaseInShape", sphereOf("@@<phase type=\"hg\"/>"), {"<phase> is not allowed here"}},
     };
 }
 
@@ -90,28 +95,21 @@ std::vector<BadText> badMedia() {
         {"MixedCoefficients",
          mediumOf("<float name=\"sigma_s\" value=\"1\"/><float name=\"albedo\" value=\"@@0.5\"/>"),
          {"mixes"}},
-        {"GridInHomogeneous", mediumOf("@@<volume name=\"sigma_x\" type=\"gridvolume\"/>"), {"sigma_x", "sigma_t"}},
-        {"MissingGridFile",
-         mediumOf(
-             "<volume name=\"sigma_t\" type=\"gridvolume\"><string name=\"filename\" value=\"@@no.vol\"/></volume>",
-             "heterogeneous"),
-         {"no.vol", "not found"}},
+        {"VolumeWithUnknownName", mediumOf("@@<volume name=\"sigma_x\" type=\"gridvolume\"/>"), {"sigma_x", "sigma_t"}},
+    };
+}
+
+std::vector<BadText> badGrids() {
+    return {
+        {"MissingGridFile", gridOf("<string name=\"filename\" value=\"@@no.vol\"/>"), {"no.vol", "not found"}},
         {"GridWithoutFile",
          mediumOf("@@<volume name=\"sigma_t\" type=\"gridvolume\"/>", "heterogeneous"),
-         {"filename"}},
-        {"NearestFilter",
-         mediumOf(
-             "<volume name=\"sigma_t\" type=\"gridvolume\"><string name=\"filter_type\" value=\"@@nearest\"/></volume>",
-             "heterogeneous"),
-         {"trilinear"}},
-        {"RepeatingGrid",
-         mediumOf(
-             "<volume name=\"sigma_t\" type=\"gridvolume\"><string name=\"wrap_mode\" value=\"@@repeat\"/></volume>",
-             "heterogeneous"),
-         {"clamp"}},
+         {"needs <string name=\"filename\">"}},
+        {"UnnamedGridFile", gridOf("<string name=\"filename\" value=\"@@\"/>"), {"must name a file"}},
+        {"NearestFilter", gridOf("<string name=\"filter_type\" value=\"@@nearest\"/>"), {"trilinear"}},
+        {"RepeatingGrid", gridOf("<string name=\"wrap_mode\" value=\"@@repeat\"/>"), {"clamp"}},
         {"DamagedGridFile",
-         mediumOf("<volume name=\"sigma_t\" type=\"gridvolume\"><string name=\"filename\" value=\"bad.vol\"/></volume>",
-                  "heterogeneous"),
+         gridOf("<string name=\"filename\" value=\"bad.vol\"/>"),
          {"bad.vol"},
          {{"bad.vol", "VOL\3 and no more"}}},
     };
@@ -173,9 +171,10 @@ class ScenePropertyError : public testing::TestWithParam<BadText> {};
 TEST_P(ScenePropertyError, NamesTheCauseAndItsPlace) { expectRefused(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Values, ScenePropertyError, testing::ValuesIn(badValues()), nameOfBadText);
-INSTANTIATE_TEST_SUITE_P(SurfacesAndLights, ScenePropertyError, testing::ValuesIn(badSurfacesAndLights()),
-                         nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(Surfaces, ScenePropertyError, testing::ValuesIn(badSurfaces()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(Lights, ScenePropertyError, testing::ValuesIn(badLights()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Media, ScenePropertyError, testing::ValuesIn(badMedia()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(Grids, ScenePropertyError, testing::ValuesIn(badGrids()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Cameras, ScenePropertyError, testing::ValuesIn(badCameras()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(FilmsAndIntegrators, ScenePropertyError, testing::ValuesIn(badFilmsAndIntegrators()),
                          nameOfBadText);

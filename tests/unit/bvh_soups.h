@@ -3,12 +3,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <limits>
 #include <random>
 #include <string>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 #include "compile/bvh_builder.h"
 #include "shared/scene_types.h"
@@ -90,7 +89,8 @@ inline Soup geometric() {
 
 inline std::vector<Soup> allSoups() {
     Soup single = randomSoup(1, 1.0f), few = randomSoup(3, 1.0f);
-    return {single, few, randomSoup(2000, 0.1f), randomSoup(300, 2.0f), slivers(), coplanarGrid(), coincident(), geometric()};
+    return {single,       few,        randomSoup(2000, 0.1f), randomSoup(300, 2.0f), slivers(), coplanarGrid(),
+            coincident(), geometric()};
 }
 
 /// From around and within the soup: towards triangles, a quarter of them close to a corner, and along the axes.

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <string>
-
 #include <glm/gtc/matrix_transform.hpp>
+#include <string>
 
 #include "compile/compile_scene.h"
 

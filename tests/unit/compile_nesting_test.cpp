@@ -19,9 +19,9 @@ glm::dmat4 turned(const glm::dvec3& at, double degrees, const glm::dvec3& axis, 
 }
 
 TEST(MediumNesting, ExteriorIsTheShapeThatProvidesIt) {
-    const SceneDescription description = sceneWith({boundary(sphere("inner", {0, 0, 0}, 0.5), 1, 0),
-                                                    boundary(cube("outer", {0, 0, 0}, {2, 2, 2}), 0),
-                                                    boundary(sphere("apart", {9, 0, 0}, 1), 0)});
+    const SceneDescription description =
+        sceneWith({boundary(sphere("inner", {0, 0, 0}, 0.5), 1, 0), boundary(cube("outer", {0, 0, 0}, {2, 2, 2}), 0),
+                   boundary(sphere("apart", {9, 0, 0}, 1), 0)});
     const CompiledScene compiled = compileScene(description);
     ASSERT_EQ(compiled.shapes.size(), 3u);
     EXPECT_EQ(compiled.shapes[0].exterior, 1u);
@@ -33,11 +33,17 @@ TEST(MediumNesting, ExteriorIsTheShapeThatProvidesIt) {
 }
 
 TEST(MediumNesting, ThreeDeepFindsTheInnermost) {
-    const CompiledScene compiled = compileScene(sceneWith({boundary(sphere("c", {}, 1), 2, 1),
-                                                           boundary(sphere("a", {}, 3), 0),
-                                                           boundary(sphere("b", {}, 2), 1, 0)}));
+    const CompiledScene compiled = compileScene(sceneWith(
+        {boundary(sphere("c", {}, 1), 2, 1), boundary(sphere("a", {}, 3), 0), boundary(sphere("b", {}, 2), 1, 0)}));
     EXPECT_EQ(compiled.shapes[0].exterior, 2u);
     EXPECT_EQ(compiled.shapes[2].exterior, 1u);
+}
+
+TEST(MediumNesting, OfTwoProvidersTheInnerOneWins) {
+    const ShapeDescription outer = boundary(sphere("outer", {}, 3), 0), inner = boundary(sphere("inner", {}, 2), 0, 0),
+                           core = boundary(sphere("core", {}, 1), 1, 0);
+    EXPECT_EQ(compileScene(sceneWith({outer, inner, core})).shapes[2].exterior, 1u);
+    EXPECT_EQ(compileScene(sceneWith({inner, outer, core})).shapes[2].exterior, 0u);
 }
 
 TEST(MediumNesting, OverlapsAreRefusedNamingBoth) {
@@ -45,13 +51,15 @@ TEST(MediumNesting, OverlapsAreRefusedNamingBoth) {
     const std::vector<std::pair<ShapeDescription, ShapeDescription>> pairs = {
         {sphere("p", {0, 0, 0}, 1), sphere("q", {1.9, 0, 0}, 1)},
         {cube("p", {0, 0, 0}, unit), cube("q", {1.99, 1.99, 1.99}, unit)},
-        {cube("p", {0, 0, 0}, unit), shape(ShapeDescription::Type::Cube, "q", turned({2.3, 0, 0}, 45, {0, 0, 1}, unit))},
+        {cube("p", {0, 0, 0}, unit),
+         shape(ShapeDescription::Type::Cube, "q", turned({2.3, 0, 0}, 45, {0, 0, 1}, unit))},
         {cube("p", {0, 0, 0}, unit), sphere("q", {1.5, 1.5, 0}, 0.71)},
-        {cube("p", {0, 0, 0}, unit), sphere("q", {0, 0, 0}, 1.2)},   // pokes out of the faces, not the corners
-        {sphere("p", {0, 0, 0}, 1), sphere("q", {0, 0, 0}, 1)}};     // coincident
+        {cube("p", {0, 0, 0}, unit), sphere("q", {0, 0, 0}, 1.2)},  // pokes out of the faces, not the corners
+        {sphere("p", {0, 0, 0}, 1), sphere("q", {0, 0, 0}, 1)}};    // coincident
     for (const auto& [p, q] : pairs) {
         const std::string message = inputErrorOf(sceneWith({boundary(p, 0), boundary(q, 1)}));
-        EXPECT_TRUE(contains(message, "\"p\"") && contains(message, "\"q\"") && contains(message, "overlap")) << message;
+        EXPECT_TRUE(contains(message, "\"p\"") && contains(message, "\"q\"") && contains(message, "overlap"))
+            << message;
         EXPECT_TRUE(contains(message, "q.xml:7:5"));
     }
 }
@@ -62,7 +70,8 @@ TEST(MediumNesting, TouchingAndNearbyMediaAreAccepted) {
         {sphere("p", {0, 0, 0}, 1), sphere("q", {2, 0, 0}, 1)},
         {cube("p", {0, 0, 0}, unit), cube("q", {2, 0, 0}, unit)},  // share a face
         {cube("p", {0, 0, 0}, unit), cube("q", {2.0 - 1e-7, 0, 0}, unit)},
-        {cube("p", {0, 0, 0}, unit), shape(ShapeDescription::Type::Cube, "q", turned({2.42, 0, 0}, 45, {0, 0, 1}, unit))},
+        {cube("p", {0, 0, 0}, unit),
+         shape(ShapeDescription::Type::Cube, "q", turned({2.42, 0, 0}, 45, {0, 0, 1}, unit))},
         // Bounding boxes and face normals overlap; only the product of two edges separates.
         {shape(ShapeDescription::Type::Cube, "p", turned({0, 0, 0}, 45, {0, 0, 1}, {1, 1, 4})),
          shape(ShapeDescription::Type::Cube, "q", turned({2.9, 0, 0}, 45, {0, 1, 0}, {1, 4, 1}))},
@@ -71,13 +80,13 @@ TEST(MediumNesting, TouchingAndNearbyMediaAreAccepted) {
 }
 
 TEST(MediumNesting, NestedMediaMustNameTheirExterior) {
-    const std::string message = inputErrorOf(
-        sceneWith({boundary(cube("outer", {}, {2, 2, 2}), 0), boundary(sphere("inner", {}, 1), 1)}));
+    const std::string message =
+        inputErrorOf(sceneWith({boundary(cube("outer", {}, {2, 2, 2}), 0), boundary(sphere("inner", {}, 1), 1)}));
     EXPECT_TRUE(contains(message, "inner.xml:7:5")) << message;
     EXPECT_TRUE(contains(message, "<ref name=\"exterior\" id=\"a\"/>")) << message;
-    const std::string wrong = inputErrorOf(
-        sceneWith({boundary(cube("outer", {}, {2, 2, 2}), 0), boundary(sphere("inner", {}, 1), 1, 2),
-                   boundary(sphere("elsewhere", {9, 0, 0}, 1), 2)}));
+    const std::string wrong =
+        inputErrorOf(sceneWith({boundary(cube("outer", {}, {2, 2, 2}), 0), boundary(sphere("inner", {}, 1), 1, 2),
+                                boundary(sphere("elsewhere", {9, 0, 0}, 1), 2)}));
     EXPECT_TRUE(contains(wrong, "got \"c\"")) << wrong;
 }
 
@@ -91,15 +100,16 @@ TEST(MediumNesting, AnExteriorNobodyProvidesIsRefused) {
 }
 
 TEST(MediumNesting, AHoleIsKeptAndAnEmptyMediumIsAHole) {
-    SceneDescription description = sceneWith({boundary(sphere("fog", {}, 3), 0), boundary(sphere("hole", {}, 2), 1, 0),
-                                              boundary(sphere("vacuum", {}, 1.5), 1, 1),
-                                              boundary(sphere("core", {}, 1), 2, 1)});
+    SceneDescription description =
+        sceneWith({boundary(sphere("fog", {}, 3), 0), boundary(sphere("hole", {}, 2), 1, 0),
+                   boundary(sphere("vacuum", {}, 1.5), 1, 1), boundary(sphere("more", {}, 1.2), 1, 1),
+                   boundary(sphere("core", {}, 1), 2, 1)});
     description.media[1].sigmaT = glm::dvec3(0.0);
     const CompiledScene compiled = compileScene(description);
     ASSERT_EQ(compiled.shapes.size(), 3u) << "vacuum in vacuum is dropped";
     EXPECT_EQ(compiled.shapes[1].interior, shared::kNone);
     EXPECT_EQ(compiled.shapes[1].exterior, 0u);
-    EXPECT_EQ(compiled.shapes[2].exterior, 1u) << "what is around the dropped shape";
+    EXPECT_EQ(compiled.shapes[2].exterior, 1u) << "what is around the dropped shapes";
     EXPECT_EQ(compiled.constants.mediumCount, 2u);
 }
 
@@ -145,12 +155,14 @@ TEST(CameraMedium, AnOpaqueRoomFilledWithAMediumHoldsTheCamera) {
 }
 
 TEST(MediumNesting, MeshesAreGivenTheBenefitOfTheDoubt) {
-    EXPECT_EQ(inputErrorOf(sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {0.4, 0.4, 0.4}, 0.3), 1)})), "");
-    const CompiledScene nested = compileScene(
-        sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {0.2, 0.2, 0.2}, 0.1), 1, 0)}));
+    EXPECT_EQ(inputErrorOf(sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {0.4, 0.4, 0.4}, 0.3), 1)})),
+              "");
+    const CompiledScene nested =
+        compileScene(sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {0.2, 0.2, 0.2}, 0.1), 1, 0)}));
     EXPECT_EQ(nested.shapes[1].exterior, 0u);
-    EXPECT_TRUE(contains(
-        inputErrorOf(sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {4, 0, 0}, 0.1), 1, 0)})), "unbounded"));
+    EXPECT_TRUE(
+        contains(inputErrorOf(sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {4, 0, 0}, 0.1), 1, 0)})),
+                 "unbounded"));
 }
 
 TEST(CompiledIntegrator, PathIgnoresMediaWithANote) {

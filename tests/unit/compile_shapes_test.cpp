@@ -1,7 +1,7 @@
+#include <gtest/gtest.h>
+
 #include <bit>
 #include <cmath>
-
-#include <gtest/gtest.h>
 
 #include "unit/compile_fixtures.h"
 
@@ -70,7 +70,12 @@ TEST(CompiledShapes, SphereTakesCenterRadiusAndUniformScale) {
     EXPECT_EQ(compiled.constants.spheres[0].radius, 0.5f);
 
     shape.toWorld = scaling({1, 1, 1.01});
-    EXPECT_TRUE(contains(inputErrorOf([&] { auto d = scene(); d.shapes = {shape}; return d; }()), "scale every axis"));
+    EXPECT_TRUE(contains(inputErrorOf([&] {
+                             auto d = scene();
+                             d.shapes = {shape};
+                             return d;
+                         }()),
+                         "scale every axis"));
 }
 
 TEST(CompiledShapes, SolidsUnderAMirrorTurnInsideOutAsInMitsuba) {
@@ -182,8 +187,9 @@ TEST(CompiledShapes, TessellatedCubesFaceOutwardsUnlessMirrored) {
             ASSERT_EQ(compiled.constants.triangleCount, 12u);
             const float side = flip != (mirror < 0) ? -1.0f : 1.0f;
             for (std::size_t i = 0; i < 12; ++i)
-                EXPECT_GT(side * glm::dot(triangleNormal(compiled, i), triangleCenter(compiled, i) - glm::vec3(0, 0, 15)),
-                          0.0f);
+                EXPECT_GT(
+                    side * glm::dot(triangleNormal(compiled, i), triangleCenter(compiled, i) - glm::vec3(0, 0, 15)),
+                    0.0f);
             EXPECT_FLOAT_EQ(compiled.constants.lights[0].area, 2 * (8 + 12 + 24));
         }
 }

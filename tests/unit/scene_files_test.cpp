@@ -23,6 +23,17 @@ void expectRefused(const std::filesystem::path& file, int line, int column, cons
     }
 }
 
+TEST(ProjectScene, EveryOneReadsWithoutNotes) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(PARHELION_ROOT) / "scenes")) {
+        if (entry.path().extension() != ".xml") continue;
+        ++count;
+        const SceneDescription scene = readScene(entry.path());
+        EXPECT_TRUE(scene.notes.empty()) << entry.path() << ": " << scene.notes.front();
+    }
+    EXPECT_GT(count, 0u);
+}
+
 TEST(BenchmarkScene, FurnaceReads) {
     const std::filesystem::path file = kShared / "benchmark/furnace.xml";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;

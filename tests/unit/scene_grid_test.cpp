@@ -19,10 +19,9 @@ protected:
         writeVolume(folder_.path() / name, volume);
     }
 
-    SceneDescription read(const std::string& mediumContent) const {
-        return readScene(folder_.write("scene.xml", sceneOf(R"(<shape type="cube"><bsdf type="null"/>
-<medium type="heterogeneous" name="interior">)" + mediumContent +
-                                                            "</medium></shape>")));
+    SceneDescription read(const std::string& content, const std::string& type = "heterogeneous") const {
+        const std::string start = "<shape type=\"cube\"><bsdf type=\"null\"/>\n<medium name=\"interior\" type=\"";
+        return readScene(folder_.write("scene.xml", sceneOf(start + type + "\">" + content + "</medium></shape>")));
     }
 
     const TemporaryFolder folder_;
@@ -67,6 +66,14 @@ TEST_F(SceneGrid, OfAlbedoMustStayInTheUnitInterval) {
         EXPECT_EQ(error.where().line, 4);
         EXPECT_NE(std::string(error.what()).find("1.5"), std::string::npos) << error.what();
     }
+}
+
+TEST_F(SceneGrid, OfExtinctionNeedsAHeterogeneousMedium) {
+    writeGrid("d.vol", 0.5f, 1.0f);
+    const std::string volume =
+        R"(<volume name="sigma_t" type="gridvolume"><string name="filename" value="d.vol"/></volume>)";
+    EXPECT_NO_THROW(read(volume));
+    EXPECT_THROW(read(volume, "homogeneous"), InputError);
 }
 
 TEST_F(SceneGrid, OfExtinctionMustHaveOneChannel) {

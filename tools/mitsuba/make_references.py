@@ -4,7 +4,7 @@
 Each image is the mean of K renders with independent seeds. The channels R, G, B hold the mean and
 variance.R, variance.G, variance.B the variance of that mean, estimated over the K renders: a
 comparison has K - 1 degrees of freedom. The header keeps `seeds` (K) and `samplesPerPixel` (over all
-seeds), and what rendered it.
+seeds), and what rendered it. A later run adds seeds to what is there.
 
 Needs `pip install mitsuba` and a libLLVM (Debian: libllvm19) named by DRJIT_LIBLLVM_PATH.
 
@@ -33,47 +33,59 @@ SCENES = {
     "hetero_sigmat": (REFERENCES / "hetero_sigmat.xml", 64),
     "homo_null": (REFERENCES / "homo_null.xml", 64),
 }
-TARGET_ERROR = 1e-3  # standard error of the image mean, relative
-MINIMUM_SEEDS = 16
+TARGET_ERROR = 5e-4  # standard error of the image mean, relative
+MINIMUM_SEEDS = 32
 
 
 class Moments:
-    """Per-pixel mean and variance over seeds, and the image mean of each seed (Welford)."""
+    """Per-pixel mean and sum of squared deviations over seeds (Welford)."""
 
-    def __init__(self):
-        self.count = 0
-        self.mean = self.squares = 0.0
-        self.image_means = []
+    def __init__(self, count=0, mean=0.0, squares=0.0):
+        self.count, self.mean, self.squares = count, mean, squares
 
     def add(self, image):
         self.count += 1
         delta = image - self.mean
         self.mean = self.mean + delta / self.count
         self.squares = self.squares + delta * (image - self.mean)
-        self.image_means.append(image.mean(axis=(0, 1)))
 
     def variance_of_mean(self):
         return self.squares / ((self.count - 1) * self.count)
 
+    def image_mean(self):
+        return self.mean.mean(axis=(0, 1))
+
     def image_error(self):
-        """Standard error of the image mean, per channel, from its spread over the seeds."""
-        return np.std(self.image_means, axis=0, ddof=1) / np.sqrt(self.count)
+        """Standard error of the image mean, per channel: pixels are independent."""
+        variance = self.variance_of_mean()
+        return np.sqrt(variance.sum(axis=(0, 1))) / (variance.shape[0] * variance.shape[1])
 
 
-def render(mi, file, size, spp, minutes):
+def read(mi, file, size, spp):
+    """What earlier runs left in `file`, or nothing when it is of another size or kind."""
+    if not file.exists():
+        return Moments()
+    bitmap = mi.Bitmap(str(file))
+    data, metadata = np.array(bitmap, dtype=np.float64), bitmap.metadata()
+    count = int(metadata["seeds"])
+    same = data.shape == (size, size, 6) and int(metadata["samplesPerPixel"]) == count * spp
+    if not same or metadata["generatedBy"] != origin(mi):
+        return Moments()
+    return Moments(count, data[:, :, :3], data[:, :, 3:] * count * (count - 1))
+
+
+def render(mi, file, size, spp, minutes, moments):
     """Adds seeds until the image mean is known to TARGET_ERROR or the time is over."""
     scene = mi.load_file(str(file), size=size, spp=spp)
-    moments = Moments()
     end = time.monotonic() + 60 * minutes
-    while True:
+    while moments.count < MINIMUM_SEEDS or (
+            time.monotonic() < end and (moments.image_error() > TARGET_ERROR * moments.image_mean()).any()):
         image = np.array(mi.render(scene, spp=spp, seed=1 + moments.count), dtype=np.float64)
         moments.add(image[:, :, :3])
-        if moments.count < MINIMUM_SEEDS:
-            continue
-        if (moments.image_error() <= TARGET_ERROR * moments.mean.mean(axis=(0, 1))).all():
-            return moments
-        if time.monotonic() > end:
-            return moments
+
+
+def origin(mi):
+    return f"Mitsuba {mi.__version__} {mi.variant()}"
 
 
 def write(mi, moments, spp, file):
@@ -83,7 +95,7 @@ def write(mi, moments, spp, file):
     metadata = bitmap.metadata()
     metadata["seeds"] = moments.count
     metadata["samplesPerPixel"] = spp * moments.count
-    metadata["generatedBy"] = f"Mitsuba {mi.__version__} {mi.variant()}"
+    metadata["generatedBy"] = origin(mi)
     unfinished = file.with_suffix(".unfinished.exr")
     bitmap.write(str(unfinished))
     unfinished.replace(file)
@@ -94,6 +106,7 @@ def main():
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="of " + ", ".join(SCENES))
     parser.add_argument("--size", type=int, default=64, help="width and height in pixels")
     parser.add_argument("--minutes", type=float, default=3.0, help="time after which a scene takes no more seeds")
+    parser.add_argument("--fresh", action="store_true", help="start anew instead of adding seeds to what is there")
     parser.add_argument("--variant", default="llvm_ad_rgb")
     arguments = parser.parse_args()
     unknown = set(arguments.scenes) - set(SCENES)
@@ -109,11 +122,13 @@ def main():
         if not file.exists():
             sys.exit(f"{file}: missing")
         start = time.monotonic()
-        moments = render(mi, file, arguments.size, spp, arguments.minutes)
-        write(mi, moments, spp, REFERENCES / f"{name}.exr")
-        mean, error = moments.mean.mean(axis=(0, 1)), moments.image_error()
+        output = REFERENCES / f"{name}.exr"
+        moments = Moments() if arguments.fresh else read(mi, output, arguments.size, spp)
+        render(mi, file, arguments.size, spp, arguments.minutes, moments)
+        write(mi, moments, spp, output)
+        means = zip(moments.image_mean(), moments.image_error())
         print(f"{name}: {moments.count} seeds of {spp} spp, {time.monotonic() - start:.0f} s; image mean",
-              " ".join(f"{m:.5f} +- {100 * e / m:.2f} %" for m, e in zip(mean, error)), flush=True)
+              " ".join(f"{mean:.5f} +- {100 * error / mean:.2f} %" for mean, error in means), flush=True)
 
 
 if __name__ == "__main__":

@@ -78,12 +78,17 @@ void offerConvex(const SceneView<Real>& scene, const Ray<Real>& ray, Hit<Real> h
         closest.offer(hit);
         return;
     }
-    if (!interval || !(interval->t0 + interval->t1 > 2 * ray.tMin)) return;
+    if (!interval || !(interval->t1 > ray.tMin)) return;
+    const bool isAhead = interval->t0 + interval->t1 > 2 * ray.tMin;
     if (hit.isNull) {
-        if (!(interval->t1 > ray.tMin) || surrounds(scene, hit.shape, ray.inside)) return;
+        if (!isAhead || surrounds(scene, hit.shape, ray.inside)) return;
         hit.t = std::max(interval->t0, ray.tMin);
+    } else if (hit.primitive == ray.last) {
+        // A ray that leaves its own convex surface outwards has the interval's middle behind it.
+        if (!isAhead) return;
+        hit.t = interval->t1;
     } else {
-        hit.t = hit.primitive != ray.last && interval->t0 >= ray.tMin ? interval->t0 : interval->t1;
+        hit.t = interval->t0 >= ray.tMin ? interval->t0 : interval->t1;
     }
     closest.offer(hit);
 }

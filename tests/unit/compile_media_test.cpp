@@ -1,0 +1,188 @@
+#include "compile/compile_media.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "compile/density_storage.h"
+#include "unit/compile_fixtures.h"
+
+namespace parhelion {
+namespace {
+
+using namespace fixtures;
+
+SceneDescription sceneWith(std::vector<MediumDescription> media) {
+    SceneDescription description = scene();
+    for (std::size_t i = 0; i < media.size(); ++i)
+        description.shapes.push_back(boundary(cube("box", {4.0 * double(i), 0, 0}, {1, 1, 1}), i));
+    description.media = std::move(media);
+    return description;
+}
+
+/// Values 1, 2, 3, ... in x-fastest order, scaled.
+DensityGrid counting(glm::uvec3 n) {
+    std::vector<float> values(n.x * n.y * n.z);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = float(i + 1) / float(values.size());
+    return DensityGrid::fromDense(n, values);
+}
+
+TEST(CompiledMedia, SplitsExtinctionIntoLargestAndRatio) {
+    MediumDescription chromatic = medium("m");
+    chromatic.sigmaT = {1, 4, 2};
+    chromatic.albedo = {0.25, 0.5, 1.0};
+    const CompiledScene compiled = compileScene(sceneWith({chromatic}));
+    const shared::Medium& record = compiled.constants.media[0];
+    EXPECT_EQ(record.sigmaMax, 4.0f);
+    EXPECT_EQ(record.sigmaRatio, glm::vec3(0.25f, 1.0f, 0.5f));
+    EXPECT_EQ(record.albedo, glm::vec3(0.25f, 0.5f, 1.0f));
+    EXPECT_EQ(record.flags, shared::kMediumHomogeneous);
+    EXPECT_TRUE(compiled.density.empty());
+    EXPECT_TRUE(compiled.effects.has(Effect::hasChromaticExtinction));
+}
+
+TEST(CompiledMedia, GridCoordinatesAreVoxels) {
+    MediumDescription cloud = gridMedium("m", counting({4, 8, 16}));
+    cloud.density->toWorld = translation({1, 2, 3}) * scaling({2, 2, 2});
+    const shared::Medium record = compileScene(sceneWith({cloud})).constants.media[0];
+    // World (1, 2, 3) is scene (1, 2, 13). All numbers are dyadic: exact.
+    EXPECT_EQ(record.gridFromWorld * glm::vec4(1, 2, 13, 1), glm::vec3(0, 0, 0));
+    EXPECT_EQ(record.gridFromWorld * glm::vec4(3, 4, 15, 1), glm::vec3(4, 8, 16));
+    EXPECT_EQ(record.resolution, glm::uvec3(4, 8, 16));
+    EXPECT_EQ(record.cells, glm::uvec3(1, 1, 2));
+}
+
+TEST(CompiledMedia, StoresGridsOneAfterTheOther) {
+    const DensityGrid a = counting({5, 3, 2}), b = counting({9, 9, 9});
+    const CompiledScene compiled = compileScene(sceneWith({gridMedium("a", a), medium("fog"), gridMedium("b", b)}));
+    const shared::Medium* media = compiled.constants.media;
+    ASSERT_EQ(compiled.constants.mediumCount, 3u);
+    ASSERT_EQ(compiled.density.size(), 30u + 729);
+    EXPECT_EQ(media[0].voxelOffset, 0u);
+    EXPECT_EQ(media[2].voxelOffset, 30u);
+    EXPECT_EQ(media[2].cellOffset, 1u);
+    EXPECT_EQ(compiled.majorants.size(), 1u + 8);
+    EXPECT_EQ(compiled.density[30 + (8 * 9 + 7) * 9 + 6], b.at({6, 7, 8}));
+    EXPECT_TRUE(compiled.effects.has(Effect::hasManyMedia));
+}
+
+TEST(CompiledMedia, AConstantGridStaysAGrid) {
+    const DensityGrid grid = DensityGrid::fromDense({2, 2, 2}, std::vector<float>(8, 0.5f));
+    const CompiledScene compiled = compileScene(sceneWith({gridMedium("m", grid)}));
+    EXPECT_EQ(compiled.constants.media[0].flags, 0u);
+    EXPECT_TRUE(compiled.effects.has(Effect::hasHeterogeneousMedia));
+    EXPECT_FALSE(compiled.effects.has(Effect::hasHomogeneousMedia));
+}
+
+TEST(CompiledMedia, EmptyGridsAreDroppedWithANote) {
+    const CompiledScene compiled = compileScene(sceneWith({gridMedium("m", DensityGrid({4, 4, 4}))}));
+    EXPECT_EQ(compiled.constants.mediumCount, 0u);
+    EXPECT_TRUE(compiled.shapes.empty());
+    EXPECT_TRUE(contains(compiled.notes.at(0), "medium \"m\" was dropped: its density grid is zero"));
+}
+
+TEST(CompiledMedia, PhaseFunctionsAreReducedAndLimited) {
+    const auto phaseOf = [](double g) {
+        MediumDescription result = medium("m");
+        result.phase.type = PhaseDescription::Type::HenyeyGreenstein;
+        result.phase.g = g;
+        return compileScene(sceneWith({result}));
+    };
+    EXPECT_EQ(phaseOf(0.0).constants.media[0].phase, shared::kPhaseIsotropic);
+    EXPECT_FALSE(phaseOf(0.0).effects.has(Effect::hasHenyeyGreenstein));
+    EXPECT_EQ(phaseOf(0.8).constants.media[0].g, 0.8f);
+    EXPECT_TRUE(phaseOf(0.8).notes.empty());
+    const CompiledScene backward = phaseOf(-1.0 + 1e-9);
+    EXPECT_EQ(backward.constants.media[0].g, -(1.0f - 0x1p-20f));
+    EXPECT_EQ(backward.notes.size(), 1u);
+}
+
+TEST(CompiledMedia, AlbedoGridsAreStoredOrFolded) {
+    MediumDescription cloud = medium("m");
+    cloud.albedoGrid = GridPlacement{};
+    Volume& volume = cloud.albedoGrid->volume;
+    volume.channels = 3;
+    volume.color.resolution = {2, 1, 1};
+    volume.color.values = {0.1f, 0.2f, 0.3f, 0.1f, 0.2f, 0.3f};
+    const CompiledScene folded = compileScene(sceneWith({cloud}));
+    EXPECT_EQ(folded.constants.media[0].albedo, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_TRUE(folded.albedoVoxels.empty());
+
+    volume.color.values[5] = 0.4f;
+    const CompiledScene stored = compileScene(sceneWith({cloud}));
+    EXPECT_TRUE(stored.constants.media[0].flags & shared::kMediumAlbedoGrid);
+    ASSERT_EQ(stored.albedoVoxels.size(), 2u);
+    EXPECT_EQ(stored.albedoVoxels[1], glm::vec4(0.1f, 0.2f, 0.4f, 0.0f));
+    EXPECT_TRUE(stored.effects.has(Effect::hasAlbedoGrids));
+
+    volume.color.values[5] = 1.5f;
+    EXPECT_TRUE(contains(inputErrorOf(sceneWith({cloud})), "albedo must be in [0, 1]"));
+}
+
+TEST(DensityStorage, SparseLargeGridsMakeAllGridsBricked) {
+    DensityGrid large({512, 256, 256});  // 128 MiB dense
+    large.set({100, 7, 9}, 0.5f);
+    large.set({511, 255, 255}, 0.25f);
+    const DensityGrid small = counting({9, 2, 2});
+    const CompiledScene compiled = compileScene(sceneWith({gridMedium("small", small), gridMedium("large", large)}));
+    EXPECT_TRUE(compiled.effects.has(Effect::hasBrickedDensity));
+    EXPECT_EQ(compiled.density.size(), 4u * 512) << "two bricks of each";
+    for (int m = 0; m < 2; ++m) {
+        const DensityGrid& grid = m == 0 ? small : large;
+        const shared::Medium& record = compiled.constants.media[m];
+        EXPECT_TRUE(record.flags & shared::kMediumBricked);
+        const glm::uvec3 counts = grid.brickCounts();
+        for (const glm::uvec3 voxel :
+             {glm::uvec3(8, 1, 1), glm::uvec3(100, 7, 9), glm::uvec3(511, 255, 255), glm::uvec3(0)}) {
+            if (glm::any(glm::greaterThanEqual(voxel, grid.resolution()))) continue;
+            const glm::uvec3 b = voxel / 8u, v = voxel % 8u;
+            const std::uint32_t first =
+                compiled.brickTable[record.voxelOffset + (b.z * counts.y + b.y) * counts.x + b.x];
+            const float value =
+                first == shared::kEmptyBrick ? 0.0f : compiled.density[first + (v.z * 8 + v.y) * 8 + v.x];
+            EXPECT_EQ(value, grid.at(voxel));
+        }
+    }
+}
+
+TEST(DensityStorage, DenselyFilledOrSmallGridsStayDense) {
+    const DensityGrid small({64, 64, 64});
+    DensityGrid full({512, 256, 256});
+    for (std::size_t i = 0; i < full.brickTable().size(); ++i)
+        if (i % 3 != 2) full.set(full.brickAt(i) * 8u, 1.0f);  // two bricks of three
+    const DensityGrid* grids[] = {&small, &full};
+    const DensityPlan plan = planDensityStorage(grids);
+    EXPECT_FALSE(plan.bricked);
+    EXPECT_EQ(plan.voxels, 64u * 64 * 64 + 512u * 256 * 256);
+    const DensityGrid huge({1024, 1024, 257});  // a little over 1 GiB dense
+    const DensityGrid* one[] = {&huge};
+    EXPECT_TRUE(planDensityStorage(one).bricked);
+}
+
+TEST(CompiledMedia, LimitsAreStated) {
+    std::vector<MediumDescription> many(shared::kMaxMedia + 1, medium("m"));
+    EXPECT_TRUE(contains(inputErrorOf(sceneWith(many)), "at most 16 media; got 17"));
+    CompileOptions options;
+    options.memoryLimitBytes = 1000;
+    try {
+        compileScene(sceneWith({gridMedium("m", counting({8, 8, 8}))}), options);
+        FAIL() << "2052 bytes in 1000";
+    } catch (const RuntimeFailure& failure) {
+        EXPECT_TRUE(contains(failure.what(), "2052") && contains(failure.what(), "1000")) << failure.what();
+    }
+}
+
+TEST(CompiledMedia, SingularPlacementsAndOverflowAreRefused) {
+    MediumDescription flat = gridMedium("m", counting({2, 2, 2}));
+    flat.density->toWorld = scaling({1, 1, 0});
+    EXPECT_TRUE(contains(inputErrorOf(sceneWith({flat})), "invertible"));
+    MediumDescription bright = gridMedium("m", DensityGrid::fromDense({1, 1, 1}, std::vector<float>{1e20f}));
+    bright.sigmaT = glm::dvec3(1e20);
+    EXPECT_TRUE(contains(inputErrorOf(sceneWith({bright})), "single precision"));
+    MediumDescription colored = gridMedium("m", DensityGrid());
+    colored.density->volume.channels = 3;
+    EXPECT_TRUE(contains(inputErrorOf(sceneWith({colored})), "one channel"));
+}
+
+}  // namespace
+}  // namespace parhelion
