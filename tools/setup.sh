@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by tools/render and tools/test: installs what is missing, configures, builds. Prints to stderr only.
 # Works in a bare Debian 12, in a chroot, with or without /proc; needs no git and no sudo.
 
@@ -5,17 +6,17 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
 
 missingPackages() {
-    local wanted installed
-    wanted=$(sed 's/#.*//; s/ *$//; /^$/d' "$root/tools/packages.txt" | sort)
-    installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' | sort)
-    comm -23 <(echo "$wanted") <(echo "$installed")
+    {
+        dpkg-query --show --showformat '${db:Status-Status} ${Package}\n'
+        sed 's/#.*//; s/ *$//; /^$/d; s/^/wanted /' "$root/tools/packages.txt"
+    } | awk '$1 == "installed" { installed[$2] } $1 == "wanted" && !($2 in installed) { print $2 }'
 }
 
 installPackages() {
     local missing
     missing=$(missingPackages)
     [ -z "$missing" ] && return
-    # One word a package, and no globbing characters in their names: splitting is meant.
+    # shellcheck disable=SC2086 # one word a package: splitting is meant
     set -- $missing
     if [ "$(id -u)" -ne 0 ]; then
         printf 'Missing packages. As root:\n    apt-get install --no-install-recommends %s\n' "$*" >&2

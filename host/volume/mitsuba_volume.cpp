@@ -1,9 +1,5 @@
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
 #include "volume/byte_reader.h"
 #include "volume/byte_writer.h"
 #include "volume/volume_checks.h"

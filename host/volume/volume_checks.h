@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 
 #include "base/error.h"
@@ -20,9 +21,6 @@ void checkBounds(const SourceLocation& where, const glm::dvec3& boundsMin, const
 /// @throws InputError saying how much is needed and allowed, when `neededBytes` exceeds the limit.
 void checkMemory(const SourceLocation& where, std::uint64_t neededBytes, std::size_t limitBytes);
 
-/// @throws InputError naming the voxel unless `value` is finite and >= 0.
-inline void checkValue(const SourceLocation& where, float value, const glm::i64vec3& voxel);
-
 /// Checks values stored x fastest with `channels` interleaved values a voxel.
 void checkValues(const SourceLocation& where, std::span<const float> values, glm::uvec3 resolution, unsigned channels);
 
@@ -31,9 +29,10 @@ std::uint64_t gridBytes(glm::uvec3 resolution, std::uint64_t bricks);
 
 [[noreturn]] void throwBadValue(const SourceLocation& where, float value, const glm::i64vec3& voxel);
 
+/// @throws InputError naming the voxel unless `value` is finite and >= 0.
 inline void checkValue(const SourceLocation& where, float value, const glm::i64vec3& voxel) {
-    // One comparison chain that NaN fails too.
-    if (!(value >= 0.0f && value <= 3.40282347e38f)) throwBadValue(where, value, voxel);
+    // Written so that NaN fails.
+    if (!(value >= 0.0f && value <= std::numeric_limits<float>::max())) throwBadValue(where, value, voxel);
 }
 
 }  // namespace parhelion

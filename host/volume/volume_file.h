@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "base/error.h"
@@ -17,6 +16,10 @@ struct VolumeReadOptions {
 };
 
 /// Reads .vol (Mitsuba 3), .grid (ours), .vdb (OpenVDB) or .nvdb (NanoVDB), told apart by content.
+///
+/// .vdb, .nvdb: the box of the active voxels, bounds in the file's world units; inactive voxels become 0
+/// (Volume::note tells when they were not). The memory limit is about the grid; the file's bytes
+/// and the values decoded from a dense .grid or an .nvdb come on top while it is read.
 ///
 /// @param where  blamed for a missing file (the scene's location of the name); the file itself is blamed for damage.
 /// @throws InputError for a missing, truncated, damaged or too large file, and for values that are

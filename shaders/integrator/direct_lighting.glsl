@@ -9,7 +9,7 @@
 
 // What scatters: a diffuse surface about its normal, or a phase function about the direction of travel.
 struct Scatterer {
-    vec3 axis;   // shading normal, or direction of travel
+    vec3 axis;   // shading normal, or direction of travel (any axis where scattering is isotropic)
     vec3 wo;
     float g;     // 0: isotropic
     bool surface;

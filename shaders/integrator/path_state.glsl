@@ -88,7 +88,9 @@ void savePath(uint lane, uint stride, Path p) {
     storeVector(at, stride, p.nextDirection);
     storeVector(at, stride, p.vertexPosition);
     storeVector(at, stride, p.vertexOffset);
-    storeVector(at, stride, vec3(p.lastPdf, uintBitsToFloat(p.nextExponential)));
+    storeWord(at, stride, floatBitsToUint(p.lastPdf));
+    storeWord(at, stride, p.nextExponential.x);
+    storeWord(at, stride, p.nextExponential.y);
     storeWord(at, stride, p.vertexInside);
     storeWord(at, stride, p.vertexLast);
 }
@@ -121,9 +123,9 @@ void loadPath(uint lane, uint stride, inout Path p) {
     p.nextDirection = loadVector(at, stride);
     p.vertexPosition = loadVector(at, stride);
     p.vertexOffset = loadVector(at, stride);
-    vec3 rest = loadVector(at, stride);
-    p.lastPdf = rest.x;
-    p.nextExponential = floatBitsToUint(rest.yz);
+    p.lastPdf = loadFloat(at, stride);
+    p.nextExponential.x = loadWord(at, stride);
+    p.nextExponential.y = loadWord(at, stride);
     p.vertexInside = loadWord(at, stride);
     p.vertexLast = loadWord(at, stride);
 }

@@ -79,7 +79,8 @@ Vertex mediumVertex(inout Path p) {
         corner = vec3(toUniform(word.x), toUniform(word.y), toUniform(word.z));
     }
     float g = hasHenyeyGreenstein && medium.phase == kPhaseHenyeyGreenstein ? medium.g : 0.0;
-    return Vertex(true, Scatterer(p.ray.direction, -p.ray.direction, g, false),
+    vec3 axis = g == 0.0 ? vec3(0.0, 0.0, 1.0) : p.ray.direction;
+    return Vertex(true, Scatterer(axis, -p.ray.direction, g, false),
                   albedoAt(medium, p.vertexPosition, corner));
 }
 

@@ -22,31 +22,29 @@ void expectValue(const PixelEstimate& a, double exact, const std::string& what) 
         << what << ": " << a.mean << " +- " << a.error << ", exact " << exact;
 }
 
-/// A patch of floor that faces up, 1 below the camera that looks at its middle.
-HandScene floorScene(glm::vec3 reflectance) {
+/// A patch of floor that faces up, below the camera that looks at its middle.
+HandScene floorScene(glm::vec3 reflectance, float distance = 1) {
     HandScene scene;
     scene.lookAlong({0, 0, -1});
-    scene.addQuad({-0.1f, -0.1f, -1}, {0.2f, 0, 0}, {0, 0.2f, 0}, scene.addDiffuse(reflectance));
+    scene.addQuad({-0.1f, -0.1f, -distance}, {0.2f, 0, 0}, {0, 0.2f, 0}, scene.addDiffuse(reflectance));
     return scene;
 }
 
 enum class Method { Scattering, Both };
 
-/// The unit square, 1 above the floor, that shines down. The floor sees it from its middle.
+/// The unit square, 1 above the floor, that shines down; the camera is half-way between.
 HandScene unitSquare(Method method, bool asMesh) {
-    HandScene scene = floorScene(glm::vec3(1));
+    HandScene scene = floorScene(glm::vec3(1), 0.5f);
     const std::uint32_t shape = scene.addDiffuse(glm::vec3(0));
     const bool isSampled = method == Method::Both;
     if (asMesh) {
-        const glm::vec3 a{-0.5f, -0.5f, 0}, b{-0.5f, 0.5f, 0}, c{0.5f, 0.5f, 0}, d{0.5f, -0.5f, 0};
+        const glm::vec3 a{-0.5f, -0.5f, 0.5f}, b{-0.5f, 0.5f, 0.5f}, c{0.5f, 0.5f, 0.5f}, d{0.5f, -0.5f, 0.5f};
         scene.addTriangles(std::vector<glm::vec3>{a, b, c, a, c, d}, shape);
         scene.addMeshLight(shape, glm::vec3(3), isSampled);
     } else {
-        const std::uint32_t quad = scene.addQuad({-0.5f, -0.5f, 0}, {0, 1, 0}, {1, 0, 0}, shape);
+        const std::uint32_t quad = scene.addQuad({-0.5f, -0.5f, 0.5f}, {0, 1, 0}, {1, 0, 0}, shape);
         scene.addAreaLight(shared::kLightQuad, quad, shape, glm::vec3(3), isSampled);
     }
-    // The camera would otherwise see the light from behind, at distance 0.
-    scene.scene.constants.camera.forward = {0, 0, -1};
     return scene;
 }
 
@@ -60,13 +58,13 @@ TEST(ReferenceLight, UnitSquareHasItsFormFactor) {
 }
 
 TEST(ReferenceLight, AbsorptionDimsTheUnitSquare) {
-    // The whole space between floor and light absorbs, sigma 0.5: 0.1402340562; the way to the camera exp(-0.5).
+    // The whole space between floor and light absorbs, sigma 0.5: 0.1402340562; the way to the camera exp(-0.25).
     for (const Method method : {Method::Scattering, Method::Both}) {
         HandScene scene = unitSquare(method, false);
         const std::uint32_t fog = scene.addNull(scene.addHomogeneous(0.5f, glm::vec3(0)));
         scene.addBox({-2, -2, -2}, {2, 2, 1}, fog);
         scene.scene.constants.camera.inside = fog;
-        expectValue(test::renderPixel(scene.scene, 400000), 3 * 0.1402340562 * std::exp(-0.5), "absorbing");
+        expectValue(test::renderPixel(scene.scene, 400000), 3 * 0.1402340562 * std::exp(-0.25), "absorbing");
     }
 }
 
@@ -75,11 +73,9 @@ TEST(ReferenceLight, SpheresLightLikeTheirConeHoweverSmallOrLarge) {
     for (const float radius : {1e-4f, 0.3f, 1.9f})
         for (const Method method : {Method::Scattering, Method::Both}) {
             if (method == Method::Scattering && radius < 0.01f) continue;
-            HandScene scene;
-            scene.lookAlong({0, 0, -1});
-            scene.addQuad({-0.1f, -0.1f, -1}, {0.2f, 0, 0}, {0, 0.2f, 0}, scene.addDiffuse(glm::vec3(0.5f)));
+            HandScene scene = floorScene(glm::vec3(0.5f));
             const std::uint32_t shape = scene.addDiffuse(glm::vec3(0));
-            // The camera is at distance 1 from the floor; the centre of the light 2 + a little above it.
+            // The camera is at distance 1 from the floor; the light begins 2 above it.
             const std::uint32_t id = scene.addSphere({0, 0, 1 + radius}, radius, shape);
             scene.addAreaLight(shared::kLightSphere, id, shape, glm::vec3(2), method == Method::Both);
             const double sine = radius / (2.0 + radius);

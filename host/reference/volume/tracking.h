@@ -141,9 +141,8 @@ std::optional<Real> trackFlight(const PathContext<Real, Trace>& path, const Medi
         const Vec3<Real> q = glm::min(Vec3<Real>(1), medium.sigmaRatio * (density / walk.bound));
         const bool isReal =
             medium.grey ? u * walk.bound < density : decideChromatic(q, u, path.hero, throughput);
-        if (!isReal) continue;
-        path.trace.add(PathEvent::Collision, walk.index);
-        return walk.t;
+        path.trace.add(isReal ? PathEvent::Collision : PathEvent::NullCollision, walk.index);
+        if (isReal) return walk.t;
     }
     return std::nullopt;
 }
