@@ -11,7 +11,15 @@ namespace parhelion::reference {
 using Counters = std::array<std::uint64_t, shared::kCounterCount>;
 
 /// What happens to a path or to one of its shadow rays.
-enum class PathEvent : std::uint32_t { Collision, NullCollision, Surface, Boundary, Escape, ShadowCollision, ShadowEnd };
+enum class PathEvent : std::uint32_t {
+    Collision,
+    NullCollision,
+    Surface,
+    Boundary,
+    Escape,
+    ShadowCollision,
+    ShadowEnd
+};
 
 /// A comparison of a random number with a computed one: where rounding may send two implementations different ways.
 struct Decision {

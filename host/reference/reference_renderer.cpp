@@ -33,7 +33,7 @@ template <typename Real>
 void renderFeatures(const SceneView<Real>& scene, const RenderSettings& settings, Film& film) {
     forEachPixel(film, [&](glm::uvec2 pixel, std::size_t index, Counters&) {
         for (std::uint64_t s = 0; s < settings.featureSamples; ++s)
-            traceFeatures(scene, settings.seed, pixel, s, film.features[index]);
+            addFeature(scene, settings.seed, pixel, s, film.features[index]);
     });
     film.featureSamples = settings.featureSamples;
 }
@@ -45,8 +45,8 @@ void renderPass(const SceneView<Real>& scene, const RenderSettings& settings, st
     forEachPixel(film, [&](glm::uvec2 pixel, std::size_t index, Counters& counters) {
         NoTrace trace;
         for (std::uint64_t s = first; s < first + count; ++s)
-            accumulate(film.pixels[index],
-                       tracePath(scene, settings.quality, settings.seed, pixel, s, counters, trace), counters);
+            accumulate(film.pixels[index], tracePath(scene, settings.quality, settings.seed, pixel, s, counters, trace),
+                       counters);
     });
     film.samples += count;
 }
@@ -91,8 +91,7 @@ template Film render<float>(const CompiledScene&, const RenderSettings&, const s
                             const std::function<void(std::uint64_t)>&);
 template Film render<double>(const CompiledScene&, const RenderSettings&, const std::atomic<bool>*,
                              const std::function<void(std::uint64_t)>&);
-template glm::vec3 tracePath<float>(const CompiledScene&, const RenderSettings&, glm::uvec2, std::uint64_t,
-                                    PathTrace*);
+template glm::vec3 tracePath<float>(const CompiledScene&, const RenderSettings&, glm::uvec2, std::uint64_t, PathTrace*);
 template glm::dvec3 tracePath<double>(const CompiledScene&, const RenderSettings&, glm::uvec2, std::uint64_t,
                                       PathTrace*);
 

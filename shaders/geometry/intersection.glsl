@@ -56,7 +56,7 @@ Hit closestHit(Ray ray, bool active_, inout uint tests, inout bool ok) {
         tests += boxCount + 1u;
     }
     if (hasTriangles)
-        ok = traverse(best, ray, quadCount + sphereCount + boxCount, active_, tests) && ok;
+        ok = traverse(best, ray, quadCount + sphereCount + boxCount, active_ && scene.triangleCount > 0u, tests) && ok;
     return best;
 }
 

@@ -10,8 +10,8 @@
 namespace parhelion::reference {
 namespace {
 
-constexpr std::array kAsymmetries{-0.999999, -0.99, -0.85, -0.5, -1e-4, 0.0, 1e-4, 1e-3, 0.3, 0.6, 0.85, 0.9, 0.99,
-                                  0.999,     0.999999};
+constexpr std::array kAsymmetries{-0.999999, -0.99, -0.85, -0.5, -1e-4, 0.0,   1e-4,    1e-3,
+                                  0.3,       0.6,   0.85,  0.9,  0.99,  0.999, 0.999999};
 
 /// Enough digits for the textbook forms, which lose most of them as |g| goes to 1.
 using Exact = boost::multiprecision::cpp_bin_float_50;
@@ -73,9 +73,9 @@ TEST(ReferencePhase, EvaluationHoldsAtThePeak) {  // H5
     }
     // Against the textbook, where that has digits left.
     const double mu = std::cos(0.5);
-    EXPECT_NEAR(evalHenyeyGreenstein(0.85, glm::dvec3(0, 0, -1), glm::dvec3(std::sin(0.5), 0, mu)) /
-                    textbookDensity(0.85, mu),
-                1, 1e-14);
+    EXPECT_NEAR(
+        evalHenyeyGreenstein(0.85, glm::dvec3(0, 0, -1), glm::dvec3(std::sin(0.5), 0, mu)) / textbookDensity(0.85, mu),
+        1, 1e-14);
 }
 
 TEST(ReferencePhase, SampledDirectionsHaveTheDensityThatEvaluationGives) {  // H8's form for one lobe

@@ -146,8 +146,7 @@ HandScene enclosure(float reflectance) {
     HandScene scene;
     scene.lookAlong({0.3f, 0.2f, -1});
     const std::uint32_t shape = scene.addDiffuse(glm::vec3(reflectance), shared::kShapeFlipNormal);
-    scene.addAreaLight(shared::kLightSphere, scene.addSphere({0.1f, 0, 0.2f}, 2, shape), shape, glm::vec3(0.5f),
-                       false);
+    scene.addAreaLight(shared::kLightSphere, scene.addSphere({0.1f, 0, 0.2f}, 2, shape), shape, glm::vec3(0.5f), false);
     return scene;
 }
 

@@ -49,7 +49,8 @@ float voxel(const std::vector<float>& voxels, glm::ivec3 i) {
 double opticalDepth(const std::vector<float>& voxels, glm::dvec3 direction, double sigma) {
     const auto density = [&](double t) {
         const glm::dvec3 p = t * direction;
-        if (glm::any(glm::lessThan(p, glm::dvec3(kLow))) || glm::any(glm::greaterThan(p, glm::dvec3(kHigh)))) return 0.0;
+        if (glm::any(glm::lessThan(p, glm::dvec3(kLow))) || glm::any(glm::greaterThan(p, glm::dvec3(kHigh))))
+            return 0.0;
         const glm::dvec3 s = (p - glm::dvec3(kLow)) / glm::dvec3(kHigh - kLow) * glm::dvec3(kResolution) - 0.5;
         const glm::ivec3 i(glm::floor(s));
         const glm::dvec3 f = s - glm::floor(s);
@@ -103,8 +104,7 @@ TEST(ReferenceGrid, ShadowRaysSeeTheTransmittanceOfTheInterpolatedDensity) {
             const glm::vec3 u = glm::normalize(glm::cross(towards, glm::vec3(0, 1, 0))), v = glm::cross(towards, u);
             // Just behind the camera, so that the grid starts where the direction from the origin meets it.
             scene.addQuad(-1e-3f * towards - 0.5f * u - 0.5f * v, u, v, wall);
-            scene.addBox(kLow, kHigh,
-                         scene.addNull(scene.addGrid(2, glm::vec3(0), kResolution, voxels, kLow, kHigh)));
+            scene.addBox(kLow, kHigh, scene.addNull(scene.addGrid(2, glm::vec3(0), kResolution, voxels, kLow, kHigh)));
             shared::Light sun{};
             sun.type = shared::kLightDirectional;
             sun.emission = glm::vec3(1);
@@ -219,8 +219,7 @@ TEST(ReferenceChromatic, EachChannelSeesItsOwnExtinction) {  // H36: one channel
 
         HandScene chromatic;
         chromatic.lookAlong({0, 0, -1});
-        chromatic.addBox(kLow, kHigh,
-                         chromatic.addNull(chromatic.addHomogeneous(2, glm::vec3(0.6f), 0.5f, ratio)));
+        chromatic.addBox(kLow, kHigh, chromatic.addNull(chromatic.addHomogeneous(2, glm::vec3(0.6f), 0.5f, ratio)));
         chromatic.setEnvironment(glm::vec3(1));
         expectEqual(test::renderPixel(chromatic.scene, 400000, false, channel), exact,
                     "homogeneous " + std::to_string(channel));

@@ -195,19 +195,27 @@ PixelEstimate renderPixel(const CompiledScene& scene, std::uint64_t samples, boo
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.featureSamples = 0;
-    const Film film =
-        inDouble ? reference::render<double>(scene, settings) : reference::render<float>(scene, settings);
+    const Film film = inDouble ? reference::render<double>(scene, settings) : reference::render<float>(scene, settings);
     return estimate(film.pixels.at(0), film.samples, channel);
 }
 
 std::vector<glm::vec3> icosphere(int subdivisions) {
     const float phi = (1 + std::sqrt(5.0f)) / 2;
-    const std::array<glm::vec3, 12> v{{{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0}, {0, -1, phi}, {0, 1, phi},
-                                       {0, -1, -phi}, {0, 1, -phi}, {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1},
+    const std::array<glm::vec3, 12> v{{{-1, phi, 0},
+                                       {1, phi, 0},
+                                       {-1, -phi, 0},
+                                       {1, -phi, 0},
+                                       {0, -1, phi},
+                                       {0, 1, phi},
+                                       {0, -1, -phi},
+                                       {0, 1, -phi},
+                                       {phi, 0, -1},
+                                       {phi, 0, 1},
+                                       {-phi, 0, -1},
                                        {-phi, 0, 1}}};
-    constexpr std::array<int, 60> kFaces{0, 11, 5, 0, 5,  1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11,
-                                         4, 11, 10, 2, 10, 7, 6, 7, 1, 8, 3, 9, 4,  3, 4,  2, 3, 2, 6, 3,
-                                         6, 8,  3,  8, 9,  4, 9, 5, 2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1};
+    constexpr std::array<int, 60> kFaces{0, 11, 5,  0, 5,  1, 0, 1, 7, 0, 7,  10, 0, 10, 11, 1, 5, 9, 5, 11,
+                                         4, 11, 10, 2, 10, 7, 6, 7, 1, 8, 3,  9,  4, 3,  4,  2, 3, 2, 6, 3,
+                                         6, 8,  3,  8, 9,  4, 9, 5, 2, 4, 11, 6,  2, 10, 8,  6, 7, 9, 8, 1};
     std::vector<glm::vec3> vertices;
     for (const int i : kFaces) vertices.push_back(glm::normalize(v[i]));
     for (int level = 0; level < subdivisions; ++level) {

@@ -84,13 +84,13 @@ TEST(ReferenceSphere, FarSpheresKeepTheirInterval) {
 TEST(ReferenceTriangle, FindsDistanceAndBarycentrics) {
     const glm::dvec3 v0{0, 0, 2}, v1{1, 0, 2}, v2{0, 1, 3};
     const glm::dvec3 direction = glm::normalize(0.5 * v0 + 0.3 * v1 + 0.2 * v2);
-    const auto hit = intersectTriangle(prepareTriangleRay(glm::dvec3(0), direction), v0, v1, v2);
+    const auto hit = intersectTriangle(rayShear(glm::dvec3(0), direction), v0, v1, v2);
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->t, glm::length(0.5 * v0 + 0.3 * v1 + 0.2 * v2), 1e-14);
     EXPECT_NEAR(hit->b1, 0.3, 1e-14);
     EXPECT_NEAR(hit->b2, 0.2, 1e-14);
     // From behind as well.
-    EXPECT_TRUE(intersectTriangle(prepareTriangleRay(4.0 * direction, -direction), v0, v1, v2));
+    EXPECT_TRUE(intersectTriangle(rayShear(4.0 * direction, -direction), v0, v1, v2));
 }
 
 TEST(ReferenceTriangle, RaysThroughSharedEdgesHit) {  // H47
@@ -126,7 +126,7 @@ TEST(ReferenceBvh, AgreesWithEveryTriangleTried) {
         if (i % 4 == 0) direction = glm::vec3(i % 8 == 0, i % 8 != 0, 0);  // axis parallel
         const Ray<float> ray = rayFrom(numbers.point(3.0f), direction);
         Hit<float> best;
-        const TriangleRay<float> prepared = prepareTriangleRay(ray.origin, ray.direction);
+        const TriangleRay<float> prepared = rayShear(ray.origin, ray.direction);
         for (std::uint32_t t = 0; t < 500; ++t) {
             const auto hit = intersectTriangle(prepared, view.vertex(t, 0), view.vertex(t, 1), view.vertex(t, 2));
             if (hit && hit->t >= 0 && hit->t < best.t) best = {hit->t, view.firstTriangle + t};
@@ -144,9 +144,8 @@ TEST(ReferenceIntersection, LowestIdWinsAmongCoincidentSurfaces) {  // H46
     const std::uint32_t shape = scene.addDiffuse(glm::vec3(1));
     for (int i = 0; i < 3; ++i) scene.addQuad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}, shape);
     const std::vector<glm::vec3> triangle{{-1, -1, -2}, {1, -1, -2}, {-1, 1, -2}};
-    scene.addTriangles(std::vector<glm::vec3>{triangle[0], triangle[1], triangle[2], triangle[0], triangle[1],
-                                              triangle[2]},
-                       shape);
+    scene.addTriangles(
+        std::vector<glm::vec3>{triangle[0], triangle[1], triangle[2], triangle[0], triangle[1], triangle[2]}, shape);
     const SceneView<float> view(scene.scene);
     Ray<float> ray = rayFrom(glm::vec3(-0.3f, -0.4f, 0), glm::vec3(0, 0, -1));
     EXPECT_EQ(closestHit(view, ray).primitive, 0u);

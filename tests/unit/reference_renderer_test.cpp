@@ -1,3 +1,5 @@
+#include "reference/reference_renderer.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <limits>
 
 #include "reference/integrator/film.h"
-#include "reference/reference_renderer.h"
 #include "support/hand_scene.h"
 
 namespace parhelion::reference {

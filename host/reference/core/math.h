@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/glm.hpp>
 #include <limits>
 #include <numbers>
-
-#include <glm/glm.hpp>
 
 namespace parhelion::reference {
 

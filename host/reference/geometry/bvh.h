@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cstdint>
 
+#include "reference/core/scene.h"
 #include "reference/geometry/triangle.h"
-#include "reference/scene_view.h"
 
 namespace parhelion::reference {
 
@@ -15,12 +15,12 @@ struct BoundsRay {
     Vec3<Real> origin, inverse;
 };
 
+/// Reference only: the shader divides where it sets up the traversal.
 template <typename Real>
 BoundsRay<Real> prepareBoundsRay(const Vec3<Real>& origin, const Vec3<Real>& direction) {
     Vec3<Real> inverse;
     // The largest finite number for 1 / 0: a plane through the origin gives 0, not 0 * infinity.
-    for (int i = 0; i < 3; ++i)
-        inverse[i] = direction[i] == 0 ? std::numeric_limits<Real>::max() : 1 / direction[i];
+    for (int i = 0; i < 3; ++i) inverse[i] = direction[i] == 0 ? std::numeric_limits<Real>::max() : 1 / direction[i];
     return {origin, inverse};
 }
 
@@ -33,7 +33,7 @@ inline constexpr Real kBoundsMargin = 1 + 8 * std::numeric_limits<Real>::epsilon
 /// Distance at which the ray enters the bounds, or infinity when it misses [tMin, tMax] of them.
 /// No triangle within is missed.
 template <typename Real>
-Real enterBounds(const glm::vec4& low, const glm::vec4& high, const BoundsRay<Real>& ray, Real tMin, Real tMax) {
+Real boxEntry(const glm::vec4& low, const glm::vec4& high, const BoundsRay<Real>& ray, Real tMin, Real tMax) {
     const Vec3<Real> a = (Vec3<Real>(low) - ray.origin) * ray.inverse;
     const Vec3<Real> b = (Vec3<Real>(high) - ray.origin) * ray.inverse;
     const Vec3<Real> near = glm::min(a, b), far = glm::max(a, b);
@@ -41,6 +41,15 @@ Real enterBounds(const glm::vec4& low, const glm::vec4& high, const BoundsRay<Re
     const Real leave = std::min(std::min(far.x, far.y), far.z) * kBoundsMargin<Real>;
     const bool missed = enter > leave || leave < tMin || enter > tMax * kBoundsMargin<Real>;
     return missed ? kInfinity<Real> : enter;
+}
+
+/// Calls accept(triangle, TriangleHit) for every triangle of a leaf that the ray's line meets.
+template <typename Real, typename Accept>
+void hitLeaf(const SceneView<Real>& scene, const TriangleRay<Real>& ray, std::int32_t leaf, Accept&& accept) {
+    const auto packed = static_cast<std::uint32_t>(~leaf);
+    for (std::uint32_t i = packed >> 3, end = i + (packed & 7u); i < end; ++i)
+        if (const auto hit = intersectTriangle(ray, scene.vertex(i, 0), scene.vertex(i, 1), scene.vertex(i, 2)))
+            accept(i, *hit);
 }
 
 /// Visits every triangle whose leaf the ray meets in [tMin, limit()], near leaves first.
@@ -54,7 +63,7 @@ void traverse(const SceneView<Real>& scene, const Vec3<Real>& origin, const Vec3
         std::int32_t node;
         Real enter;
     };
-    const TriangleRay<Real> triangleRay = prepareTriangleRay(origin, direction);
+    const TriangleRay<Real> triangleRay = rayShear(origin, direction);
     const BoundsRay<Real> boundsRay = prepareBoundsRay(origin, direction);
     std::array<Pending, shared::kBvhStackSize> stack;
     std::size_t depth = 0;
@@ -63,16 +72,12 @@ void traverse(const SceneView<Real>& scene, const Vec3<Real>& origin, const Vec3
         const Pending next = stack[--depth];
         if (next.enter > limit() * kBoundsMargin<Real>) continue;
         if (next.node < 0) {
-            const auto leaf = static_cast<std::uint32_t>(~next.node);
-            for (std::uint32_t i = leaf >> 3, end = i + (leaf & 7u); i < end; ++i)
-                if (const auto hit =
-                        intersectTriangle(triangleRay, scene.vertex(i, 0), scene.vertex(i, 1), scene.vertex(i, 2)))
-                    accept(i, *hit);
+            hitLeaf(scene, triangleRay, next.node, accept);
             continue;
         }
         const glm::vec4* texels = &scene.source.bvhNodes[std::size_t(next.node) * shared::kBvhNodeTexels];
-        Pending near{glm::floatBitsToInt(texels[0].w), enterBounds(texels[0], texels[1], boundsRay, tMin, limit())};
-        Pending far{glm::floatBitsToInt(texels[2].w), enterBounds(texels[2], texels[3], boundsRay, tMin, limit())};
+        Pending near{glm::floatBitsToInt(texels[0].w), boxEntry(texels[0], texels[1], boundsRay, tMin, limit())};
+        Pending far{glm::floatBitsToInt(texels[2].w), boxEntry(texels[2], texels[3], boundsRay, tMin, limit())};
         if (far.enter < near.enter) std::swap(near, far);
         assert(depth + 2 <= stack.size());
         if (far.enter < kInfinity<Real>) stack[depth++] = far;

@@ -2,32 +2,9 @@
 
 #include "reference/geometry/bvh.h"
 #include "reference/geometry/primitives.h"
+#include "reference/geometry/ray.h"
 
 namespace parhelion::reference {
-
-/// A ray keeps origin and direction while it crosses null boundaries: only tMin moves.
-template <typename Real>
-struct Ray {
-    Vec3<Real> origin, direction;  ///< direction: unit
-    Real tMin = 0;
-    Real tMax = kInfinity<Real>;
-    std::uint32_t last = kNone;    ///< primitive the ray starts on
-    std::uint32_t target = kNone;  ///< primitive to ignore: the light a shadow ray goes to
-    std::uint32_t inside = kNone;  ///< shape whose interior surrounds the ray at tMin
-    std::uint32_t stalls = 0;      ///< boundaries crossed since the ray last moved
-};
-
-template <typename Real>
-struct Hit {
-    Real t = kInfinity<Real>;
-    std::uint32_t primitive = kNone;
-    std::uint32_t shape = kNone;
-    Vec2<Real> barycentric{0};  ///< of a triangle's second and third vertex
-    bool isNull = false;
-    bool exits = false;  ///< leaves the convex null shape the ray is inside
-
-    bool found() const { return primitive != kNone; }
-};
 
 /// The surface at a hit. Normals are unit and on the side that flip_normals says.
 template <typename Real>
@@ -36,46 +13,26 @@ struct Surface {
     Real rounding;  ///< a bound on how far `position` lies off a triangle along its normal; 0 on other shapes
 };
 
-/// The closest candidate so far. Equal distances: an exit first, then the lowest primitive id (numerics H46).
-template <typename Real>
-class ClosestHit {
-public:
-    explicit ClosestHit(Real tMax) : tMax_(tMax) { hit_.t = tMax; }
-
-    Real limit() const { return hit_.t; }
-    Hit<Real> result() const { return hit_.found() ? hit_ : Hit<Real>{}; }
-
-    void offer(const Hit<Real>& candidate) {
-        if (!(candidate.t < tMax_) || candidate.t > hit_.t) return;
-        if (candidate.t == hit_.t) {
-            if (candidate.exits != hit_.exits ? hit_.exits : candidate.primitive >= hit_.primitive) return;
-        }
-        hit_ = candidate;
-    }
-
-private:
-    Real tMax_;
-    Hit<Real> hit_;
-};
-
 /// Whether `shape` is `inside` or surrounds it.
+/// Reference only: the shader has it where it meets a null shape.
 template <typename Real>
 bool surrounds(const SceneView<Real>& scene, std::uint32_t shape, std::uint32_t inside) {
-    while (inside != kNone && inside != shape) inside = scene.source.shapes[inside].exterior;
+    while (inside != kNone && inside != shape) inside = scene.shapeAt(inside).exterior;
     return inside != kNone;
 }
 
-/// What a convex shape offers to the closest hit.
+/// What a convex shape adds to the nearest hit.
 ///
+/// @param hit       the shape; its distance is filled in here.
 /// @param interval  where the ray's line is inside the shape, or nothing.
 template <typename Real>
-void offerConvex(const SceneView<Real>& scene, const Ray<Real>& ray, Hit<Real> hit,
-                 const std::optional<Interval<Real>>& interval, ClosestHit<Real>& closest) {
+void hitConvex(const SceneView<Real>& scene, const Ray<Real>& ray, Hit<Real> hit,
+               const std::optional<Interval<Real>>& interval, Hit<Real>& nearest) {
     if (hit.primitive == ray.target) return;
     if (hit.isNull && hit.shape == ray.inside) {
         hit.t = interval ? std::max(interval->t1, ray.tMin) : ray.tMin;
         hit.exits = true;
-        closest.offer(hit);
+        if (hit.t < ray.tMax) keepNearer(nearest, hit);
         return;
     }
     if (!interval || !(interval->t1 > ray.tMin)) return;
@@ -90,58 +47,58 @@ void offerConvex(const SceneView<Real>& scene, const Ray<Real>& ray, Hit<Real> h
     } else {
         hit.t = interval->t0 >= ray.tMin ? interval->t0 : interval->t1;
     }
-    closest.offer(hit);
+    if (hit.t < ray.tMax) keepNearer(nearest, hit);
 }
 
-/// A flat primitive at distance t: an opaque one may be met where the ray has just left a medium.
+/// What a flat primitive adds: an opaque one may be met where the ray has just left a medium.
+/// Reference only: the shader has it where it meets quads and triangles.
 template <typename Real>
-void offerFlat(const Ray<Real>& ray, const Hit<Real>& hit, ClosestHit<Real>& closest) {
+void hitFlat(const Ray<Real>& ray, const Hit<Real>& hit, Hit<Real>& nearest) {
     if (hit.primitive == ray.last || hit.primitive == ray.target) return;
-    if (hit.isNull ? hit.t > ray.tMin : hit.t >= ray.tMin) closest.offer(hit);
+    if (!(hit.isNull ? hit.t > ray.tMin : hit.t >= ray.tMin) || !(hit.t < ray.tMax)) return;
+    keepNearer(nearest, hit);
 }
 
 /// The first surface or null boundary from ray.tMin on and before ray.tMax.
 template <typename Real>
 Hit<Real> closestHit(const SceneView<Real>& scene, const Ray<Real>& ray) {
-    ClosestHit<Real> closest(ray.tMax);
-    Hit<Real> hit;
+    Hit<Real> nearest, hit;
     hit.primitive = 0;
     for (const Quad<Real>& quad : scene.quads) {
         hit.shape = quad.shape;
         hit.isNull = quad.isNull;
         if (const auto t = intersectQuad(quad, ray.origin, ray.direction)) {
             hit.t = *t;
-            offerFlat(ray, hit, closest);
+            hitFlat(ray, hit, nearest);
         }
         ++hit.primitive;
     }
-    for (const Sphere<Real>& sphere : scene.spheres) {
-        hit.shape = sphere.shape;
-        hit.isNull = sphere.isNull;
-        offerConvex(scene, ray, hit, sphereInterval(sphere, ray.origin, ray.direction), closest);
+    const auto addConvex = [&](const auto& shape, const std::optional<Interval<Real>>& interval) {
+        hit.shape = shape.shape;
+        hit.isNull = shape.isNull;
+        hitConvex(scene, ray, hit, interval, nearest);
         ++hit.primitive;
-    }
-    for (const Box<Real>& box : scene.boxes) {
-        hit.shape = box.shape;
-        hit.isNull = box.isNull;
-        offerConvex(scene, ray, hit, boxInterval(box, ray.origin, ray.direction), closest);
-        ++hit.primitive;
-    }
-    if (scene.constants.triangleCount == 0) return closest.result();
-    const auto accept = [&](std::uint32_t triangle, const TriangleHit<Real>& found) {
-        if (found.t > closest.limit()) return;
+    };
+    for (const Sphere<Real>& sphere : scene.spheres)
+        addConvex(sphere, sphereInterval(sphere, ray.origin, ray.direction));
+    for (const Box<Real>& box : scene.boxes) addConvex(box, boxInterval(box, ray.origin, ray.direction));
+    if (scene.constants.triangleCount == 0) return nearest;
+    const auto addTriangle = [&](std::uint32_t triangle, const TriangleHit<Real>& found) {
+        if (found.t > nearest.t) return;
         hit.t = found.t;
         hit.primitive = scene.firstTriangle + triangle;
         hit.shape = scene.triangleShape(triangle);
         hit.isNull = scene.isNull(hit.shape);
         hit.barycentric = {found.b1, found.b2};
-        offerFlat(ray, hit, closest);
+        hitFlat(ray, hit, nearest);
     };
-    traverse(scene, ray.origin, ray.direction, ray.tMin, [&] { return closest.limit(); }, accept);
-    return closest.result();
+    const auto limit = [&] { return std::min(nearest.t, ray.tMax); };
+    traverse(scene, ray.origin, ray.direction, ray.tMin, limit, addTriangle);
+    return nearest;
 }
 
 /// Unit normal of a triangle counted from the first, on the side that flip_normals says.
+/// Reference only: the shader has it within triangleSurface.
 template <typename Real>
 Vec3<Real> triangleNormal(const SceneView<Real>& scene, std::uint32_t triangle) {
     const Vec3<Real> v0 = scene.vertex(triangle, 0);
@@ -150,6 +107,7 @@ Vec3<Real> triangleNormal(const SceneView<Real>& scene, std::uint32_t triangle) 
 }
 
 /// Unit normal of a quad or triangle.
+/// Reference only: the shader has it within crossBoundary.
 template <typename Real>
 Vec3<Real> flatNormal(const SceneView<Real>& scene, std::uint32_t primitive) {
     if (primitive < scene.firstSphere) return scene.quads[primitive].normal;
@@ -175,8 +133,7 @@ Surface<Real> triangleSurface(const SceneView<Real>& scene, std::uint32_t triang
     surface.rounding = glm::dot(error, glm::abs(surface.geometricNormal));
     if (scene.source.vertexNormals.empty()) return surface;
     const glm::vec4* normals = &scene.source.vertexNormals[std::size_t(triangle) * 3];
-    const Vec3<Real> n =
-        b.x * Vec3<Real>(normals[0]) + b.y * Vec3<Real>(normals[1]) + b.z * Vec3<Real>(normals[2]);
+    const Vec3<Real> n = b.x * Vec3<Real>(normals[0]) + b.y * Vec3<Real>(normals[1]) + b.z * Vec3<Real>(normals[2]);
     const Real length = glm::length(n);
     if (length > 0) surface.shadingNormal = (scene.isFlipped(scene.triangleShape(triangle)) ? -n : n) / length;
     return surface;
@@ -194,18 +151,29 @@ Vec3<Real> boxNormal(const Box<Real>& box, const Vec3<Real>& position) {
 }
 
 template <typename Real>
+Surface<Real> sphereSurface(const SceneView<Real>& scene, const Sphere<Real>& sphere, const Vec3<Real>& position) {
+    const Vec3<Real> outwards = glm::normalize(position - sphere.center);
+    const Vec3<Real> n = scene.isFlipped(sphere.shape) ? -outwards : outwards;
+    return {position, n, n, 0};
+}
+
+template <typename Real>
+Surface<Real> boxSurface(const SceneView<Real>& scene, const Box<Real>& box, const Vec3<Real>& position) {
+    const Vec3<Real> outwards = boxNormal(box, position);
+    const Vec3<Real> n = scene.isFlipped(box.shape) ? -outwards : outwards;
+    return {position, n, n, 0};
+}
+
+template <typename Real>
 Surface<Real> surfaceAt(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit) {
     if (hit.primitive >= scene.firstTriangle)
         return triangleSurface(scene, hit.primitive - scene.firstTriangle, hit.barycentric);
     const Vec3<Real> position = ray.origin + hit.t * ray.direction;
-    if (hit.primitive < scene.firstSphere) {
-        const Vec3<Real>& n = scene.quads[hit.primitive].normal;
-        return {position, n, n, 0};
-    }
-    Vec3<Real> n = hit.primitive < scene.firstBox
-                       ? glm::normalize(position - scene.spheres[hit.primitive - scene.firstSphere].center)
-                       : boxNormal(scene.boxes[hit.primitive - scene.firstBox], position);
-    if (scene.isFlipped(hit.shape)) n = -n;
+    if (hit.primitive >= scene.firstBox)
+        return boxSurface(scene, scene.boxes[hit.primitive - scene.firstBox], position);
+    if (hit.primitive >= scene.firstSphere)
+        return sphereSurface(scene, scene.spheres[hit.primitive - scene.firstSphere], position);
+    const Vec3<Real>& n = scene.quads[hit.primitive].normal;
     return {position, n, n, 0};
 }
 
@@ -220,7 +188,7 @@ bool crossBoundary(const SceneView<Real>& scene, const Hit<Real>& hit, Ray<Real>
     if (enters)
         ray.inside = hit.shape;
     else if (ray.inside == hit.shape)
-        ray.inside = scene.source.shapes[hit.shape].exterior;
+        ray.inside = scene.shapeAt(hit.shape).exterior;
     ray.stalls = hit.t > ray.tMin ? 0 : ray.stalls + 1;
     ray.tMin = hit.t;
     return ray.stalls < kMaxStalls;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "reference/scene_view.h"
+#include "reference/core/scene.h"
 
 namespace parhelion::reference {
 
@@ -42,8 +42,7 @@ std::optional<Interval<Real>> sphereInterval(const Sphere<Real>& sphere, const V
 
 /// Slabs in the box's own space. An axis the ray does not move along limits nothing, or everything (numerics H39).
 template <typename Real>
-std::optional<Interval<Real>> boxInterval(const Box<Real>& box, const Vec3<Real>& origin,
-                                          const Vec3<Real>& direction) {
+std::optional<Interval<Real>> boxInterval(const Box<Real>& box, const Vec3<Real>& origin, const Vec3<Real>& direction) {
     const Vec3<Real> o = box.localFromWorld.point(origin);
     const Vec3<Real> d = box.localFromWorld.vector(direction);
     Interval<Real> interval{-kInfinity<Real>, kInfinity<Real>};

@@ -23,7 +23,7 @@ struct TriangleHit {
 };
 
 template <typename Real>
-TriangleRay<Real> prepareTriangleRay(const Vec3<Real>& origin, const Vec3<Real>& direction) {
+TriangleRay<Real> rayShear(const Vec3<Real>& origin, const Vec3<Real>& direction) {
     const Vec3<Real> a = glm::abs(direction);
     TriangleRay<Real> ray;
     ray.origin = origin;

@@ -8,31 +8,32 @@
 
 namespace parhelion::reference {
 
-/// A scattering: at a point of a medium, or of a surface.
+/// Where light scatters: at a point of a medium, or of a surface.
 template <typename Real>
 struct Vertex {
     Vec3<Real> position;
-    Vec3<Real> wo;                        ///< unit, to where the path came from
-    const Medium<Real>* medium = nullptr; ///< null on a surface
-    Surface<Real> surface{};              ///< normals on the side of wo; of no meaning in a medium
+    Vec3<Real> wo;                         ///< unit, to where the path came from
+    const Medium<Real>* medium = nullptr;  ///< null on a surface
+    Surface<Real> surface{};               ///< normals on the side of wo; of no meaning in a medium
     std::uint32_t primitive = kNone;
     std::uint32_t inside = kNone;
-    std::uint32_t index = 0;              ///< scatterings so far, this one included
-    Real strength = 1;                    ///< largest channel of the reflectance; 1 in a medium
+    std::uint32_t index = 0;  ///< scatterings so far, this one included
+    Real strength = 1;        ///< largest channel of the reflectance; 1 in a medium
 };
 
 /// Scattering value without albedo or reflectance, cosine included; it is also the density that scattering samples.
 template <typename Real>
-Real evalScattering(const Vertex<Real>& vertex, const Vec3<Real>& wi) {
+Real evalScatterer(const Vertex<Real>& vertex, const Vec3<Real>& wi) {
     return vertex.medium ? evalPhase(*vertex.medium, vertex.wo, wi) : evalDiffuse(vertex.surface.shadingNormal, wi);
 }
 
 template <typename Real>
-DirectionSample<Real> sampleScattering(const Vertex<Real>& vertex, const Vec2<Real>& u) {
+DirectionSample<Real> sampleScatterer(const Vertex<Real>& vertex, const Vec2<Real>& u) {
     return vertex.medium ? samplePhase(*vertex.medium, vertex.wo, u) : sampleDiffuse(vertex.surface.shadingNormal, u);
 }
 
 /// Ray that leaves a vertex; off triangles by their rounding, to the side it goes to (numerics H41).
+/// Reference only: startRay writes it into the path state.
 template <typename Real>
 Ray<Real> spawnRay(const Vertex<Real>& vertex, const Vec3<Real>& direction) {
     Ray<Real> ray;
@@ -48,6 +49,7 @@ Ray<Real> spawnRay(const Vertex<Real>& vertex, const Vec3<Real>& direction) {
 }
 
 /// Unbiased estimate of the transmittance to ray.tMax per channel; 0 behind an opaque surface.
+/// Reference only: a loop over segments; the shader takes one at a time.
 ///
 /// @param residual   of the shadow ray's first tentative collision.
 /// @param threshold  see trackShadow.
@@ -65,9 +67,8 @@ Vec3<Real> estimateTransmittance(const PathContext<Real, Trace>& path, Ray<Real>
             ray.inside = kNone;
             continue;
         }
-        const Medium<Real>* medium = path.scene.mediumInside(ray.inside);
-        if (medium && !trackShadow(path, *medium, ray, tEnd, vertex, threshold, residual, weight))
-            return Vec3<Real>(0);
+        const Medium<Real>* medium = path.scene.interiorOf(ray.inside);
+        if (medium && !trackShadow(path, *medium, ray, tEnd, vertex, threshold, residual, weight)) return Vec3<Real>(0);
         if (!hit.found()) return weight;
         if (!crossBoundary(path.scene, hit, ray)) {
             ++path.counters[shared::kCounterLoopTruncated];
@@ -78,12 +79,12 @@ Vec3<Real> estimateTransmittance(const PathContext<Real, Trace>& path, Ray<Real>
 
 /// Next-event estimation: scattered radiance from one light, without albedo or reflectance.
 template <typename Real, typename Trace>
-Vec3<Real> sampleDirect(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex) {
+Vec3<Real> estimateDirect(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex) {
     const glm::uvec4 words = draw(path.key, vertex.index, shared::kDrawLight);
     const Vec3<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y), toUniform<Real>(words.z)};
     const auto light = sampleLight(path.scene, vertex.position, u);
     if (!light) return Vec3<Real>(0);
-    const Real scattering = evalScattering(vertex, light->direction);
+    const Real scattering = evalScatterer(vertex, light->direction);
     const Real mis = light->isDelta ? Real(1) : balanceHeuristic(light->pdf, scattering);
     const Vec3<Real> contribution = scattering * mis * light->radianceOverPdf;
     if (maxComponent(contribution) == 0) return Vec3<Real>(0);

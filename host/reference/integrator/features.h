@@ -1,20 +1,19 @@
 #pragma once
 
-#include "reference/integrator/camera.h"
+#include "reference/integrator/path_tracer.h"
 
 namespace parhelion::reference {
 
 /// Adds what the first opaque surface along a camera ray looks like; null boundaries and media are passed through.
 template <typename Real>
-void traceFeatures(const SceneView<Real>& scene, std::uint32_t seed, glm::uvec2 pixel, std::uint64_t sample,
-                   shared::FeaturePixel& sums) {
-    const std::uint32_t index = pixel.y * scene.source.filmSize.x + pixel.x;
-    const glm::uvec2 key = pathKey(index, std::uint32_t(sample), std::uint32_t(sample >> 32), seed);
+void addFeature(const SceneView<Real>& scene, std::uint32_t seed, glm::uvec2 pixel, std::uint64_t sample,
+                shared::FeaturePixel& sums) {
+    const glm::uvec2 key = keyPath(scene, seed, pixel, sample);
     Ray<Real> ray = generateRay(scene, pixel, draw(key, 0, shared::kDrawFeature));
     Hit<Real> hit = closestHit(scene, ray);
     while (hit.found() && hit.isNull && crossBoundary(scene, hit, ray)) hit = closestHit(scene, ray);
     if (!hit.found() || hit.isNull) return;
-    const shared::Shape& shape = scene.source.shapes[hit.shape];
+    const shared::Shape& shape = scene.shapeAt(hit.shape);
     const Surface<Real> surface = surfaceAt(scene, ray, hit);
     const bool isBehind = glm::dot(surface.geometricNormal, ray.direction) > 0;
     const bool flips = isBehind && (shape.flags & shared::kShapeTwoSided) != 0;

@@ -12,27 +12,51 @@ namespace parhelion::reference {
 /// A direction towards a light.
 template <typename Real>
 struct LightSample {
-    Vec3<Real> direction;         ///< unit, away from the vertex
-    Real distance;                ///< to the light point; infinite for directional lights and the environment
-    std::uint32_t target;         ///< primitive of the light point, or kNone
-    Vec3<Real> radianceOverPdf;   ///< selection included
-    Real pdf;                     ///< per steradian, selection included; of no meaning for a delta light
+    Vec3<Real> direction;        ///< unit, away from the vertex
+    Real distance;               ///< to the light point; infinite for directional lights and the environment
+    std::uint32_t target;        ///< primitive of the light point, or kNone
+    Vec3<Real> radianceOverPdf;  ///< selection included
+    Real pdf;                    ///< per steradian, selection included; of no meaning for a delta light
     bool isDelta;
 };
 
-/// The front side, seen by light that leaves along `outgoing`: cosine there, or 0 behind.
+/// Cosine at a light of what leaves along `outgoing`; 0 behind, where nothing does.
+/// Reference only: spelt out where the shader needs it.
 template <typename Real>
 Real frontCosine(const Vec3<Real>& normal, const Vec3<Real>& outgoing) {
     return std::max(Real(0), glm::dot(normal, outgoing));
 }
 
+/// Index of the light that u chooses: the first whose cumulative selection is above; lights.size() when none is.
+template <typename Real>
+std::size_t selectLight(const SceneView<Real>& scene, Real u) {
+    std::size_t chosen = 0;
+    while (chosen < scene.lights.size() && !(scene.lights[chosen].cumulative > u)) ++chosen;
+    return chosen;
+}
+
 /// 1 - cos of the half angle under which a sphere is seen; nothing from inside.
 template <typename Real>
-std::optional<Real> visibleCone(const Sphere<Real>& sphere, const Vec3<Real>& position) {
+std::optional<Real> oneMinusCosCone(const Sphere<Real>& sphere, const Vec3<Real>& position) {
     const Vec3<Real> toCenter = sphere.center - position;
     const Real sin2 = sphere.radius * sphere.radius / glm::dot(toCenter, toCenter);
     if (!(sin2 < 1)) return std::nullopt;
     return sin2 / (1 + std::sqrt(1 - sin2));
+}
+
+template <typename Real>
+std::optional<LightSample<Real>> sampleSphereLight(const SceneView<Real>& scene, const Light<Real>& light,
+                                                   const Vec3<Real>& position, const Vec2<Real>& u) {
+    const Sphere<Real>& sphere = scene.spheres[light.primitive - scene.firstSphere];
+    const std::optional<Real> cone = oneMinusCosCone(sphere, position);
+    if (!cone || scene.isFlipped(sphere.shape)) return std::nullopt;
+    const Frame<Real> frame = frameFromNormal(glm::normalize(sphere.center - position));
+    const Vec3<Real> direction = glm::normalize(toWorld(frame, uniformCone(u, *cone)));
+    const auto interval = sphereInterval(sphere, position, direction);
+    // At the rim of the cone rounding may miss the sphere: it is then touched where it is nearest.
+    const Real distance = interval ? interval->t0 : glm::dot(sphere.center - position, direction);
+    const Real pdf = light.selection / (2 * kPi<Real> * *cone);
+    return LightSample<Real>{direction, distance, light.primitive, light.emission / pdf, pdf, false};
 }
 
 /// Turns a uniform point of an area into a sample by solid angle.
@@ -51,21 +75,6 @@ std::optional<LightSample<Real>> sampleArea(const Light<Real>& light, const Vec3
     return LightSample<Real>{direction, distance, primitive, light.emission / pdf, pdf, false};
 }
 
-template <typename Real>
-std::optional<LightSample<Real>> sampleSphereLight(const SceneView<Real>& scene, const Light<Real>& light,
-                                                   const Vec3<Real>& position, const Vec2<Real>& u) {
-    const Sphere<Real>& sphere = scene.spheres[light.primitive - scene.firstSphere];
-    const std::optional<Real> cone = visibleCone(sphere, position);
-    if (!cone || scene.isFlipped(sphere.shape)) return std::nullopt;
-    const Frame<Real> frame = frameFromNormal(glm::normalize(sphere.center - position));
-    const Vec3<Real> direction = glm::normalize(toWorld(frame, uniformCone(u, *cone)));
-    const auto interval = sphereInterval(sphere, position, direction);
-    // At the rim of the cone rounding may miss the sphere: it is then touched where it is nearest.
-    const Real distance = interval ? interval->t0 : glm::dot(sphere.center - position, direction);
-    const Real pdf = light.selection / (2 * kPi<Real> * *cone);
-    return LightSample<Real>{direction, distance, light.primitive, light.emission / pdf, pdf, false};
-}
-
 /// @param selector  uniform, what is left of the number that chose the light.
 template <typename Real>
 std::optional<LightSample<Real>> sampleMeshLight(const SceneView<Real>& scene, const Light<Real>& light,
@@ -79,6 +88,7 @@ std::optional<LightSample<Real>> sampleMeshLight(const SceneView<Real>& scene, c
     return sampleArea(light, position, point, triangleNormal(scene, triangle), light.area, primitive);
 }
 
+/// Reference only: within sampleLight in the shader.
 template <typename Real>
 std::optional<LightSample<Real>> sampleDeltaLight(const Light<Real>& light, const Vec3<Real>& position) {
     if (light.type == shared::kLightDirectional)
@@ -87,8 +97,8 @@ std::optional<LightSample<Real>> sampleDeltaLight(const Light<Real>& light, cons
     const Real distance2 = glm::dot(toLight, toLight);
     if (distance2 == 0) return std::nullopt;
     const Real distance = std::sqrt(distance2);
-    return LightSample<Real>{toLight / distance, distance, kNone, light.emission / (distance2 * light.selection), 0,
-                             true};
+    return LightSample<Real>{
+        toLight / distance, distance, kNone, light.emission / (distance2 * light.selection), 0, true};
 }
 
 /// Chooses one light and a point of it.
@@ -98,8 +108,7 @@ std::optional<LightSample<Real>> sampleDeltaLight(const Light<Real>& light, cons
 template <typename Real>
 std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const Vec3<Real>& position,
                                              const Vec3<Real>& u) {
-    std::size_t chosen = 0;
-    while (chosen < scene.lights.size() && !(scene.lights[chosen].cumulative > u.x)) ++chosen;
+    const std::size_t chosen = selectLight(scene, u.x);
     if (chosen == scene.lights.size()) return std::nullopt;
     const Light<Real>& light = scene.lights[chosen];
     const Vec2<Real> uv{u.y, u.z};
@@ -134,18 +143,11 @@ Real lightPdf(const SceneView<Real>& scene, const Light<Real>& light, const Vec3
     if (light.selection == 0) return 0;
     if (light.type == shared::kLightEnvironment) return light.selection / (4 * kPi<Real>);
     if (light.type == shared::kLightSphere) {
-        const auto cone = visibleCone(scene.spheres[light.primitive - scene.firstSphere], origin);
+        const auto cone = oneMinusCosCone(scene.spheres[light.primitive - scene.firstSphere], origin);
         return cone ? light.selection / (2 * kPi<Real> * *cone) : Real(0);
     }
     const Real area = light.type == shared::kLightQuad ? scene.quads[light.primitive].area : light.area;
     return light.selection * distance * distance / (area * frontCosine(normal, -direction));
-}
-
-/// Radiance from beyond the scene; the same from every direction.
-template <typename Real>
-Vec3<Real> environmentRadiance(const SceneView<Real>& scene) {
-    const std::uint32_t light = scene.constants.environment;
-    return light == kNone ? Vec3<Real>(0) : scene.lights[light].emission;
 }
 
 }  // namespace parhelion::reference

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/scene_view.h"
+#include "reference/core/scene.h"
 
 namespace parhelion::reference {
 
@@ -10,19 +10,34 @@ struct CellWalk {
     Vec3<Real> origin, direction, inverse;  ///< in voxel units; direction not unit
     Real t;
     glm::ivec3 cell;
-    std::size_t index;   ///< of the cell, x fastest
-    Vec3<Real> planes;   ///< t of the next plane along each axis; infinite where the grid ends
-    Real bound;          ///< density bound of the cell
+    std::size_t index;  ///< of the cell, x fastest
+    Vec3<Real> planes;  ///< t of the next plane along each axis; infinite where the grid ends
+    Real bound;         ///< density bound of the cell
 };
 
+/// The ray in voxel units; where it is in the grid is still to be said.
 template <typename Real>
-void loadCell(const Medium<Real>& medium, CellWalk<Real>& walk) {
-    walk.index = (std::size_t(walk.cell.z) * medium.cells.y + walk.cell.y) * medium.cells.x + walk.cell.x;
-    walk.bound = Real(medium.majorants[walk.index]);
+CellWalk<Real> gridRay(const Medium<Real>& medium, const Vec3<Real>& origin, const Vec3<Real>& direction) {
+    CellWalk<Real> walk{};
+    walk.origin = medium.gridFromWorld.point(origin);
+    walk.direction = medium.gridFromWorld.vector(direction);
+    walk.inverse = Real(1) / walk.direction;
+    return walk;
+}
+
+/// Puts the walk at distance t of its ray.
+template <typename Real>
+void startCell(const Medium<Real>& medium, Real t, CellWalk<Real>& walk) {
+    walk.t = t;
+    const Vec3<Real> cell = glm::floor((walk.origin + t * walk.direction) / Real(shared::kVoxelsPerCell));
+    walk.cell = glm::ivec3(glm::clamp(cell, Vec3<Real>(0), Vec3<Real>(medium.cells - 1)));
+    walk.bound = majorantAt(medium, walk);
+    planeDistances(medium, walk);
 }
 
 /// t of the next plane of one axis, always from the integer cell, so that no error builds up (numerics H26).
 /// Infinite where the ray does not move (H27) or would leave the grid: border values extend outwards.
+/// Reference only: the shader does all three at once.
 template <typename Real>
 Real planeDistance(const Medium<Real>& medium, const CellWalk<Real>& walk, int axis) {
     const Real d = walk.direction[axis];
@@ -37,22 +52,8 @@ void planeDistances(const Medium<Real>& medium, CellWalk<Real>& walk) {
     for (int axis = 0; axis < 3; ++axis) walk.planes[axis] = planeDistance(medium, walk, axis);
 }
 
-/// The walk at distance t of a world-space ray.
-template <typename Real>
-CellWalk<Real> startCell(const Medium<Real>& medium, const Vec3<Real>& origin, const Vec3<Real>& direction, Real t) {
-    CellWalk<Real> walk;
-    walk.origin = medium.gridFromWorld.point(origin);
-    walk.direction = medium.gridFromWorld.vector(direction);
-    walk.inverse = Real(1) / walk.direction;
-    walk.t = t;
-    const Vec3<Real> cell = glm::floor((walk.origin + t * walk.direction) / Real(shared::kVoxelsPerCell));
-    walk.cell = glm::ivec3(glm::clamp(cell, Vec3<Real>(0), Vec3<Real>(medium.cells - 1)));
-    loadCell(medium, walk);
-    planeDistances(medium, walk);
-    return walk;
-}
-
 /// The axis whose plane comes first; x before y before z where they meet.
+/// Reference only: within nextCell in the shader.
 template <typename Real>
 int nearestAxis(const CellWalk<Real>& walk) {
     const Vec3<Real>& t = walk.planes;
@@ -65,7 +66,14 @@ template <typename Real>
 void nextCell(const Medium<Real>& medium, CellWalk<Real>& walk, int axis) {
     walk.cell[axis] += walk.direction[axis] > 0 ? 1 : -1;
     walk.planes[axis] = planeDistance(medium, walk, axis);
-    loadCell(medium, walk);
+    walk.bound = majorantAt(medium, walk);
+}
+
+/// Density bound of the walk's cell; notes the cell's index as well.
+template <typename Real>
+Real majorantAt(const Medium<Real>& medium, CellWalk<Real>& walk) {
+    walk.index = (std::size_t(walk.cell.z) * medium.cells.y + walk.cell.y) * medium.cells.x + walk.cell.x;
+    return Real(medium.majorants[walk.index]);
 }
 
 }  // namespace parhelion::reference

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "reference/core/frame.h"
+#include "reference/core/scene.h"
 #include "reference/sampling/warp.h"
-#include "reference/scene_view.h"
 #include "reference/surface/bsdf.h"
 
 namespace parhelion::reference {
@@ -40,12 +40,14 @@ Deflection<Real> sampleHenyeyGreenstein(Real g, Real u) {
 }
 
 /// Density per steradian of scattering from -wo to wi.
+/// Reference only: within evalScatterer in the shader.
 template <typename Real>
 Real evalPhase(const Medium<Real>& medium, const Vec3<Real>& wo, const Vec3<Real>& wi) {
     if (medium.isotropic) return 1 / (4 * kPi<Real>);
     return evalHenyeyGreenstein(medium.g, wo, wi);
 }
 
+/// Reference only: within sampleScatterer in the shader.
 template <typename Real>
 DirectionSample<Real> samplePhase(const Medium<Real>& medium, const Vec3<Real>& wo, const Vec2<Real>& u) {
     if (medium.isotropic) return {uniformSphere(u), 1 / (4 * kPi<Real>)};

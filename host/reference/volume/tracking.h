@@ -29,7 +29,10 @@ struct Residual {
     Real depth;
     std::uint32_t index = 0;  ///< tentative collisions of this ray so far
 
+    /// Reference only: the shader keeps the two numbers in its path state.
     void spend(Real opticalDepth) { depth = std::max(Real(0), depth - opticalDepth); }
+
+    /// Reference only: as above.
     void renew(const glm::uvec4& words) {
         depth = exponential<Real>(words.z, words.w >> 8);
         ++index;
@@ -44,7 +47,10 @@ struct Throughput {
     Vec3<Real> beta{1};
     Vec3<Real> r{1};
 
+    /// Reference only: as above.
     Real meanR() const { return (r.x + r.y + r.z) / 3; }
+
+    /// Reference only: as above.
     void scale(const Vec3<Real>& ratio) {
         beta *= ratio;
         r *= ratio;
@@ -52,6 +58,7 @@ struct Throughput {
 };
 
 /// Moves to the next tentative collision, or to tEnd.
+/// Reference only: a loop over cells; the shader steps one cell at a time.
 ///
 /// @return whether there is a collision before tEnd; walk.t is where.
 template <typename Real>
@@ -76,6 +83,7 @@ bool nextCollision(const Medium<Real>& medium, CellWalk<Real>& walk, Real tEnd, 
 }
 
 /// Density at the walk's position, checked against the bound of its cell.
+/// Reference only: within stepSegment in the shader.
 template <typename Real, typename Trace>
 Real densityHere(const PathContext<Real, Trace>& path, const Medium<Real>& medium, const CellWalk<Real>& walk,
                  const glm::uvec4& words) {
@@ -85,16 +93,35 @@ Real densityHere(const PathContext<Real, Trace>& path, const Medium<Real>& mediu
     return density;
 }
 
-/// Decides a tentative collision with probability q of the hero channel.
+/// Decides whether a flight's tentative collision is real.
 ///
-/// @param q  extinction / majorant per channel, in [0, 1].
+/// @param u  uniform.
 template <typename Real>
-bool decideChromatic(const Vec3<Real>& q, Real u, int hero, Throughput<Real>& throughput) {
+bool decideFlight(const Medium<Real>& medium, Real density, Real bound, Real u, int hero,
+                  Throughput<Real>& throughput) {
+    if (medium.grey) return u * bound < density;
+    const Vec3<Real> q = glm::min(Vec3<Real>(1), medium.sigmaRatio * (density / bound));
     const bool isReal = u < q[hero];
     throughput.scale(isReal ? q / q[hero] : (Real(1) - q) / (1 - q[hero]));
     return isReal;
 }
 
+/// Attenuates a shadow ray at a tentative collision, and plays roulette once it is weak.
+///
+/// @param q          extinction over bound, per channel.
+/// @param threshold  largest weight that roulette restores survivors to, in [0, 1].
+/// @return whether the ray is alive.
+template <typename Real>
+bool decideShadow(const Vec3<Real>& q, Real u, Real threshold, Vec3<Real>& weight) {
+    weight *= glm::max(Vec3<Real>(0), Real(1) - q);
+    const Real largest = maxComponent(weight);
+    if (largest >= threshold) return true;
+    if (!(u * threshold < largest)) return false;
+    weight *= threshold / largest;
+    return true;
+}
+
+/// Reference only: within stepAnalytically in the shader.
 template <typename Real, typename Trace>
 std::optional<Real> trackHomogeneousFlight(const PathContext<Real, Trace>& path, const Medium<Real>& medium, Real t,
                                            Real tEnd, std::uint32_t vertex, Residual<Real>& residual,
@@ -111,11 +138,12 @@ std::optional<Real> trackHomogeneousFlight(const PathContext<Real, Trace>& path,
         if (medium.grey) return t;
         const glm::uvec4 words = draw(path.key, vertex, shared::kDrawFlight | residual.index);
         residual.renew(words);
-        if (decideChromatic(medium.sigmaRatio, toUniform<Real>(words.x), path.hero, throughput)) return t;
+        if (decideFlight(medium, Real(1), Real(1), toUniform<Real>(words.x), path.hero, throughput)) return t;
     }
 }
 
 /// Samples where a path scatters in one medium between ray.tMin and tEnd.
+/// Reference only: a loop over collisions; the shader takes one at a time.
 ///
 /// @param vertex  scatterings before.
 /// @return t of the real collision, or nothing when the path reaches tEnd.
@@ -128,19 +156,18 @@ std::optional<Real> trackFlight(const PathContext<Real, Trace>& path, const Medi
         if (t) path.trace.add(PathEvent::Collision, 0);
         return t;
     }
-    CellWalk<Real> walk = startCell(medium, ray.origin, ray.direction, ray.tMin);
+    CellWalk<Real> walk = gridRay(medium, ray.origin, ray.direction);
+    startCell(medium, ray.tMin, walk);
     while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
         const glm::uvec4 words = draw(path.key, vertex, shared::kDrawFlight | residual.index);
         const Real density = densityHere(path, medium, walk, words);
         const Real u = toUniform<Real>(words.x);
         if constexpr (Trace::kIsOn) {
-            const double q = double(density) / double(walk.bound) * (medium.grey ? 1 : medium.sigmaRatio[path.hero]);
+            const double q = double(density) / double(walk.bound) * double(medium.sigmaRatio[path.hero]);
             path.trace.add(Decision{Decision::Kind::Flight, vertex, residual.index, walk.index, double(u), q});
         }
         residual.renew(words);
-        const Vec3<Real> q = glm::min(Vec3<Real>(1), medium.sigmaRatio * (density / walk.bound));
-        const bool isReal =
-            medium.grey ? u * walk.bound < density : decideChromatic(q, u, path.hero, throughput);
+        const bool isReal = decideFlight(medium, density, walk.bound, u, path.hero, throughput);
         path.trace.add(isReal ? PathEvent::Collision : PathEvent::NullCollision, walk.index);
         if (isReal) return walk.t;
     }
@@ -149,9 +176,10 @@ std::optional<Real> trackFlight(const PathContext<Real, Trace>& path, const Medi
 
 /// Attenuates a shadow ray by one medium between ray.tMin and tEnd: ratio tracking that turns into delta tracking
 /// as the weight falls below the threshold.
+/// Reference only: a loop over collisions; the shader takes one at a time.
 ///
 /// @param vertex     scatterings so far; chooses the draws.
-/// @param threshold  largest weight that roulette restores survivors to, in [0, 1].
+/// @param threshold  see decideShadow.
 /// @param weight     transmittance estimate so far, per channel.
 /// @return whether the ray is alive.
 template <typename Real, typename Trace>
@@ -163,21 +191,19 @@ bool trackShadow(const PathContext<Real, Trace>& path, const Medium<Real>& mediu
         weight *= Vec3<Real>(expNegative(depth.x), expNegative(depth.y), expNegative(depth.z));
         return maxComponent(weight) > 0;
     }
-    CellWalk<Real> walk = startCell(medium, ray.origin, ray.direction, ray.tMin);
+    CellWalk<Real> walk = gridRay(medium, ray.origin, ray.direction);
+    startCell(medium, ray.tMin, walk);
     while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
         const glm::uvec4 words = draw(path.key, vertex, shared::kDrawShadow | residual.index);
-        const Real density = densityHere(path, medium, walk, words);
-        weight *= glm::max(Vec3<Real>(0), Real(1) - medium.sigmaRatio * (density / walk.bound));
-        path.trace.add(PathEvent::ShadowCollision, walk.index);
-        const Real largest = maxComponent(weight);
-        if (largest < threshold) {
-            const Real u = toUniform<Real>(words.x);
-            if constexpr (Trace::kIsOn)
-                path.trace.add(Decision{Decision::Kind::ShadowRoulette, vertex, residual.index, walk.index, double(u),
-                                        double(largest) / double(threshold)});
-            if (!(u * threshold < largest)) return false;
-            weight *= threshold / largest;
+        const Vec3<Real> q = medium.sigmaRatio * (densityHere(path, medium, walk, words) / walk.bound);
+        const Real u = toUniform<Real>(words.x);
+        if constexpr (Trace::kIsOn) {
+            const double survival = double(maxComponent(weight * (Real(1) - q))) / double(threshold);
+            path.trace.add(
+                Decision{Decision::Kind::ShadowRoulette, vertex, residual.index, walk.index, double(u), survival});
         }
+        path.trace.add(PathEvent::ShadowCollision, walk.index);
+        if (!decideShadow(q, u, threshold, weight)) return false;
         residual.renew(words);
     }
     return true;

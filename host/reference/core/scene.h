@@ -17,8 +17,11 @@ struct Affine {
     Vec3<Real> translation;
 
     Affine() = default;
+    /// Reference only: GLSL multiplies by mat4x3 where it needs to.
     explicit Affine(const glm::mat4x3& m) : linear(glm::mat3(m[0], m[1], m[2])), translation(m[3]) {}
+    /// Reference only: as above.
     Vec3<Real> point(const Vec3<Real>& p) const { return linear * p + translation; }
+    /// Reference only: as above.
     Vec3<Real> vector(const Vec3<Real>& v) const { return linear * v; }
 };
 
@@ -57,7 +60,7 @@ struct Medium {
     const float* density = nullptr;             ///< first voxel (dense), or the whole brick pool
     const std::uint32_t* brickTable = nullptr;  ///< null when dense
     const float* majorants = nullptr;
-    const glm::vec4* albedoVoxels = nullptr;    ///< null without an albedo grid
+    const glm::vec4* albedoVoxels = nullptr;  ///< null without an albedo grid
     bool homogeneous, grey, isotropic;
 };
 
@@ -84,27 +87,33 @@ struct SceneView {
     std::vector<Light<Real>> lights;  ///< in the scene's order
     std::uint32_t firstSphere, firstBox, firstTriangle;
 
-    bool isNull(std::uint32_t shape) const { return (source.shapes[shape].flags & shared::kShapeNull) != 0; }
+    const shared::Shape& shapeAt(std::uint32_t index) const { return source.shapes[index]; }
 
-    bool isFlipped(std::uint32_t shape) const {
-        return (source.shapes[shape].flags & shared::kShapeFlipNormal) != 0;
+    /// The medium that fills the interior of a shape (which may be kNone), or null.
+    const Medium<Real>* interiorOf(std::uint32_t shape) const {
+        if (shape == kNone || shapeAt(shape).interior == kNone) return nullptr;
+        return &media[shapeAt(shape).interior];
     }
 
-    /// The medium that fills the interior of `shape`, or null.
-    const Medium<Real>* mediumInside(std::uint32_t shape) const {
-        if (shape == kNone || source.shapes[shape].interior == kNone) return nullptr;
-        return &media[source.shapes[shape].interior];
-    }
+    /// Reference only: spelt out where the shader needs it.
+    bool isNull(std::uint32_t shape) const { return (shapeAt(shape).flags & shared::kShapeNull) != 0; }
+
+    /// Reference only: spelt out where the shader needs it.
+    bool isFlipped(std::uint32_t shape) const { return (shapeAt(shape).flags & shared::kShapeFlipNormal) != 0; }
 
     /// Vertex 0, 1 or 2 of a triangle, counted from the first triangle.
+    /// Reference only: the shader fetches texels.
     Vec3<Real> vertex(std::uint32_t triangle, std::uint32_t corner) const {
         return Vec3<Real>(source.triangles[triangle * shared::kTriangleTexels + corner]);
     }
+
+    /// Reference only: the shader has the texel at hand.
     std::uint32_t triangleShape(std::uint32_t triangle) const {
         return glm::floatBitsToUint(source.triangles[triangle * shared::kTriangleTexels].w);
     }
 };
 
+/// Reference only: the shader reads the records as they are.
 template <typename Real>
 Medium<Real> viewMedium(const CompiledScene& scene, const shared::Medium& m) {
     Medium<Real> v;
@@ -130,6 +139,7 @@ Medium<Real> viewMedium(const CompiledScene& scene, const shared::Medium& m) {
     return v;
 }
 
+/// Reference only: the shader reads the records as they are.
 template <typename Real>
 SceneView<Real>::SceneView(const CompiledScene& scene) : source(scene), constants(scene.constants) {
     const shared::SceneConstants& c = constants;
@@ -138,15 +148,14 @@ SceneView<Real>::SceneView(const CompiledScene& scene) : source(scene), constant
     firstTriangle = firstBox + c.boxCount;
     for (std::uint32_t i = 0; i < c.quadCount; ++i) {
         const shared::Quad& q = c.quads[i];
-        quads.push_back({q.corner, q.edgeU, q.edgeV, q.normal, q.uFromWorld, q.vFromWorld, Real(q.area), q.shape,
-                         isNull(q.shape)});
+        quads.push_back(
+            {q.corner, q.edgeU, q.edgeV, q.normal, q.uFromWorld, q.vFromWorld, Real(q.area), q.shape, isNull(q.shape)});
     }
     for (std::uint32_t i = 0; i < c.sphereCount; ++i)
-        spheres.push_back({c.spheres[i].center, Real(c.spheres[i].radius), c.spheres[i].shape,
-                           isNull(c.spheres[i].shape)});
+        spheres.push_back(
+            {c.spheres[i].center, Real(c.spheres[i].radius), c.spheres[i].shape, isNull(c.spheres[i].shape)});
     for (std::uint32_t i = 0; i < c.boxCount; ++i)
-        boxes.push_back({Affine<Real>(c.boxes[i].localFromWorld), c.boxes[i].shape,
-                         isNull(c.boxes[i].shape)});
+        boxes.push_back({Affine<Real>(c.boxes[i].localFromWorld), c.boxes[i].shape, isNull(c.boxes[i].shape)});
     for (std::uint32_t i = 0; i < c.mediumCount; ++i) media.push_back(viewMedium<Real>(scene, c.media[i]));
     for (std::uint32_t i = 0; i < c.lightCount; ++i) {
         const shared::Light& l = c.lights[i];

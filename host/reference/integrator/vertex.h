@@ -1,0 +1,136 @@
+#pragma once
+
+#include "reference/integrator/direct_lighting.h"
+
+namespace parhelion::reference {
+
+/// A path between two of its vertices.
+template <typename Real>
+struct PathState {
+    Ray<Real> ray;
+    Residual<Real> residual;
+    Throughput<Real> throughput{};
+    Vec3<Real> radiance{0};
+    Real lastPdf = kInfinity<Real>;  ///< of the ray's direction; infinite from the camera: no light sample competes
+    std::uint32_t scatterings = 0;
+};
+
+/// Where a path's flight ends.
+template <typename Real>
+struct FlightEnd {
+    enum class Kind { Escape, Surface, Medium, Truncated } kind;
+    Hit<Real> hit{};                       ///< Surface
+    const Medium<Real>* medium = nullptr;  ///< Medium
+    Real t = 0;                            ///< Medium
+};
+
+/// Adds emission met at the end of a flight, weighted against light sampling at its start.
+template <typename Real>
+void addEmission(const SceneView<Real>& scene, const Light<Real>& light, Real distance, const Vec3<Real>& normal,
+                 PathState<Real>& state) {
+    const Real pdf = lightPdf(scene, light, state.ray.origin, state.ray.direction, distance, normal);
+    const Real mis = balanceHeuristic(state.lastPdf, pdf);
+    state.radiance += state.throughput.beta * light.emission * (mis / state.throughput.meanR());
+}
+
+/// Adds what comes from beyond the scene.
+template <typename Real>
+void addEnvironment(const SceneView<Real>& scene, PathState<Real>& state) {
+    const std::uint32_t light = scene.constants.environment;
+    if (light == kNone) return;
+    addEmission(scene, scene.lights[light], kInfinity<Real>, -state.ray.direction, state);
+}
+
+/// Absorption, roulette, direct light and the next direction at a vertex.
+///
+/// @param albedo  albedo or reflectance.
+/// @return whether the path goes on.
+template <typename Real, typename Trace>
+bool scatter(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex, const Vec3<Real>& albedo,
+             PathState<Real>& state) {
+    Throughput<Real>& throughput = state.throughput;
+    throughput.beta *= albedo;
+    const Real largest = maxComponent(throughput.beta);
+    if (largest == 0) return false;
+    const glm::uvec4 words = draw(path.key, vertex.index, shared::kDrawScatter);
+    if (vertex.index >= path.scene.constants.rouletteDepth) {
+        const Real survival = std::clamp(largest / throughput.meanR(), Real(0.05), Real(1));
+        const Real u = toUniform<Real>(words.w);
+        if constexpr (Trace::kIsOn)
+            path.trace.add(Decision{Decision::Kind::PathRoulette, vertex.index, 0, 0, double(u), double(survival)});
+        if (!(u < survival)) return false;
+        throughput.beta /= survival;
+    }
+    state.radiance += throughput.beta * estimateDirect(path, vertex) / throughput.meanR();
+    const Vec2<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y)};
+    const DirectionSample<Real> next = sampleScatterer(vertex, u);
+    state.ray = spawnRay(vertex, next.direction);
+    state.lastPdf = next.pdf;
+    state.residual = {exponential<Real>(words.z, spareBits(words.x, words.y, words.w))};
+    state.scatterings = vertex.index;
+    return true;
+}
+
+/// Emission and scattering at an opaque surface.
+///
+/// @return whether the path goes on: not from behind a one-sided surface.
+template <typename Real, typename Trace>
+bool surfaceVertex(const PathContext<Real, Trace>& path, const Hit<Real>& hit, Vertex<Real>& vertex,
+                   PathState<Real>& state) {
+    const SceneView<Real>& scene = path.scene;
+    const shared::Shape& shape = scene.shapeAt(hit.shape);
+    vertex.surface = surfaceAt(scene, state.ray, hit);
+    vertex.position = vertex.surface.position;
+    vertex.primitive = hit.primitive;
+    const Vec3<Real> reflectance(shape.reflectance);
+    vertex.strength = maxComponent(reflectance);
+    if (glm::dot(vertex.surface.geometricNormal, vertex.wo) > 0) {
+        if (shape.light != kNone)
+            addEmission(scene, scene.lights[shape.light], hit.t, vertex.surface.geometricNormal, state);
+    } else {
+        if ((shape.flags & shared::kShapeTwoSided) == 0) return false;
+        vertex.surface.geometricNormal = -vertex.surface.geometricNormal;
+        vertex.surface.shadingNormal = -vertex.surface.shadingNormal;
+    }
+    return vertex.index < scene.constants.maxDepth && scatter(path, vertex, reflectance, state);
+}
+
+/// Scattering in a medium, at distance t of the path's ray.
+///
+/// @return whether the path goes on.
+template <typename Real, typename Trace>
+bool mediumVertex(const PathContext<Real, Trace>& path, const Medium<Real>& medium, Real t, Vertex<Real>& vertex,
+                  PathState<Real>& state) {
+    if (vertex.index >= path.scene.constants.maxDepth) return false;
+    vertex.medium = &medium;
+    vertex.position = state.ray.origin + t * state.ray.direction;
+    const glm::uvec4 words = draw(path.key, vertex.index, shared::kDrawAlbedo);
+    const Vec3<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y), toUniform<Real>(words.z)};
+    return scatter(path, vertex, albedoAt(medium, vertex.position, u), state);
+}
+
+/// What happens where a flight ends.
+///
+/// @return whether the path goes on.
+template <typename Real, typename Trace>
+bool handleEvent(const PathContext<Real, Trace>& path, const FlightEnd<Real>& end, PathState<Real>& state) {
+    using Kind = typename FlightEnd<Real>::Kind;
+    if (end.kind == Kind::Truncated) {
+        ++path.counters[shared::kCounterLoopTruncated];
+        return false;
+    }
+    if (end.kind == Kind::Escape) {
+        path.trace.add(PathEvent::Escape, 0);
+        addEnvironment(path.scene, state);
+        return false;
+    }
+    ++path.counters[shared::kCounterVertices];
+    Vertex<Real> vertex;
+    vertex.wo = -state.ray.direction;
+    vertex.inside = state.ray.inside;
+    vertex.index = state.scatterings + 1;
+    return end.kind == Kind::Surface ? surfaceVertex(path, end.hit, vertex, state)
+                                     : mediumVertex(path, *end.medium, end.t, vertex, state);
+}
+
+}  // namespace parhelion::reference
