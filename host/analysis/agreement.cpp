@@ -17,12 +17,32 @@ namespace {
 class Side {
 public:
     Side(std::span<const Image> images, const std::string& channel, bool independentPixels)
-        : width_(images[0].size.x), independentPixels_(independentPixels) {
-        for (const Image& image : images) values_.push_back(image.channels.at(channel));
+        : width_(images[0].size.x), freedom_(static_cast<double>(images.size()) - 1) {
+        std::vector<std::span<const float>> values;
+        for (const Image& image : images) values.push_back(image.channels.at(channel));
+        if (!independentPixels) {
+            values_ = std::move(values);
+            return;
+        }
+        for (std::size_t i = 0; i < values[0].size(); ++i) {
+            RunningMoments moments;
+            for (const auto& image : values) moments.add(image[i]);
+            means_.push_back(moments.mean());
+            variances_.push_back(moments.variance() / static_cast<double>(images.size()));
+        }
+    }
+
+    /// @param reference  with the channel's variance.
+    Side(const Image& reference, std::size_t seeds, const std::string& channel)
+        : width_(reference.size.x), freedom_(static_cast<double>(seeds) - 1) {
+        const auto& means = reference.channels.at(channel);
+        const auto& variances = reference.channels.at("variance." + channel);
+        means_.assign(means.begin(), means.end());
+        variances_.assign(variances.begin(), variances.end());
     }
 
     /// Mean over a rectangle and over the images; noise from the spread between the images.
-    NoisyMean mean(const PixelRect& rect) const { return independentPixels_ ? pooledMean(rect) : plainMean(rect); }
+    NoisyMean mean(const PixelRect& rect) const { return values_.empty() ? pooledMean(rect) : plainMean(rect); }
 
 private:
     NoisyMean plainMean(const PixelRect& rect) const {
@@ -34,7 +54,7 @@ private:
             moments.add(weight * sum);
         }
         NoisyMean result{moments.mean(), {}};
-        addNoise(result, moments, 1);
+        result.noise.add(moments.variance() / static_cast<double>(moments.count()), freedom_);
         return result;
     }
 
@@ -42,22 +62,16 @@ private:
         NoisyMean result;
         const double weight = 1.0 / (double(rect.size.x) * rect.size.y);
         forEachPixel(rect, width_, [&](std::size_t i) {
-            RunningMoments moments;
-            for (const auto& values : values_) moments.add(values[i]);
-            result.value += weight * moments.mean();
-            addNoise(result, moments, weight);
+            result.value += weight * means_[i];
+            result.noise.add(weight * weight * variances_[i], freedom_);
         });
         return result;
     }
 
-    static void addNoise(NoisyMean& mean, const RunningMoments& moments, double weight) {
-        const double count = static_cast<double>(moments.count());
-        mean.noise.add(weight * weight * moments.variance() / count, count - 1);
-    }
-
-    std::vector<std::span<const float>> values_;
+    std::vector<std::span<const float>> values_;  ///< of each image, when whole images are compared
+    std::vector<double> means_, variances_;       ///< of each pixel and of its mean, when pixels are
     unsigned width_ = 0;
-    bool independentPixels_ = false;
+    double freedom_ = 0;  ///< of each variance
 };
 
 /// One channel of both sides.
@@ -73,6 +87,15 @@ void requireSeeds(std::span<const Image> images, glm::uvec2 size, const std::str
             fmt::format("testing agreement needs 2 images a side or more; the {} side has {}", side, images.size()));
     for (std::size_t k = 0; k < images.size(); ++k)
         requireComparable(images[k], size, fmt::format("image {} of the {} side", k + 1, side));
+}
+
+void requireReference(const Image& reference, std::size_t seeds, glm::uvec2 size) {
+    if (seeds < 2)
+        throw InputError(fmt::format("testing agreement needs a reference of 2 images or more; got {}", seeds));
+    requireComparable(reference, size, "the reference");
+    for (const char* channel : kComparedChannels)
+        if (!reference.has(std::string("variance.") + channel))
+            throw InputError(fmt::format("the reference has no channel variance.{}: its noise is not known", channel));
 }
 
 std::size_t countNonFinite(std::span<const Image> images) {
@@ -165,6 +188,14 @@ std::string describeScale(const char* name, const ScaleAgreement& scale) {
                        100 * scale.smallestBias);
 }
 
+void compareScales(ImageAgreement& result, const std::vector<SidePair>& pairs, glm::uvec2 size,
+                   const AgreementOptions& options) {
+    for (const SidePair& pair : pairs) result.channels.push_back(agreementOfMeans(pair, size, options));
+    result.means = compareRegions(pairs, tilesOf(size, std::max(size.x, size.y)), options);
+    result.tiles = compareRegions(pairs, tilesOf(size, kTileEdge), options);
+    result.pixels = compareRegions(pairs, tilesOf(size, 1), options);
+}
+
 }  // namespace
 
 bool ImageAgreement::agree() const {
@@ -184,13 +215,25 @@ ImageAgreement testAgreement(std::span<const Image> a, std::span<const Image> b,
     for (const char* channel : kComparedChannels)
         pairs.push_back(
             {channel, Side(a, channel, options.independentPixels), Side(b, channel, options.independentPixels)});
-    for (const SidePair& pair : pairs) {
-        result.channels.push_back(agreementOfMeans(pair, size, options));
-        result.channels.back().rmsBias = rmsBias(a, b, pair.channel, options.confidence);
-    }
-    result.means = compareRegions(pairs, tilesOf(size, std::max(size.x, size.y)), options);
-    result.tiles = compareRegions(pairs, tilesOf(size, kTileEdge), options);
-    result.pixels = compareRegions(pairs, tilesOf(size, 1), options);
+    compareScales(result, pairs, size, options);
+    for (ChannelAgreement& channel : result.channels)
+        channel.rmsBias = rmsBias(a, b, channel.channel, options.confidence);
+    return result;
+}
+
+ImageAgreement testAgreement(std::span<const Image> a, const Image& reference, std::size_t seeds,
+                             const AgreementOptions& options) {
+    requireSeeds(a, reference.size, "first");
+    requireReference(reference, seeds, reference.size);
+    ImageAgreement result;
+    result.seedsA = a.size();
+    result.seedsB = seeds;
+    result.nonFinite = countNonFinite(a) + countNonFinite({&reference, 1});
+    if (result.nonFinite > 0) return result;
+    std::vector<SidePair> pairs;
+    for (const char* channel : kComparedChannels)
+        pairs.push_back({channel, Side(a, channel, options.independentPixels), Side(reference, seeds, channel)});
+    compareScales(result, pairs, reference.size, options);
     return result;
 }
 

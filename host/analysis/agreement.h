@@ -66,6 +66,15 @@ struct ImageAgreement {
 /// @throws InputError for fewer than two images a side, different sizes, or a missing channel R, G or B.
 ImageAgreement testAgreement(std::span<const Image> a, std::span<const Image> b, const AgreementOptions& options = {});
 
+/// The same against a reference of which only this is kept: the mean of its images in channels R, G, B, and the
+/// variance of that mean, as their spread shows it, in variance.R, .G, .B. Its pixels are taken as independent, as
+/// `options.independentPixels` says of the first side; no RMS bias is estimated.
+///
+/// @param seeds  images behind the reference, 2 or more: seeds - 1 degrees of freedom a pixel.
+/// @throws InputError as above, and for missing variance channels.
+ImageAgreement testAgreement(std::span<const Image> a, const Image& reference, std::size_t seeds,
+                             const AgreementOptions& options = {});
+
 /// The agreement as lines of text.
 std::string describe(const ImageAgreement& agreement);
 

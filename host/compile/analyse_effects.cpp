@@ -83,6 +83,10 @@ private:
             countMedia([](const Medium& medium) { return medium.flags & shared::kMediumBricked; });
         decide(Effect::hasMedia, count > 0, countOf(count, "medium", "media"), "no medium");
         decide(Effect::hasManyMedia, count > 1, countOf(count, "medium", "media"), countOf(count, "medium", "media"));
+        const auto nested = std::size_t(std::ranges::count_if(
+            scene_.shapes, [](const shared::Shape& shape) { return shape.exterior != shared::kNone; }));
+        decide(Effect::hasNestedMedia, nested > 0, countOf(nested, "nested boundary", "nested boundaries"),
+               "no medium surrounds another");
         decide(Effect::hasHomogeneousMedia, homogeneous > 0,
                countOf(homogeneous, "homogeneous medium", "homogeneous media"), "no homogeneous medium");
         decide(Effect::hasHeterogeneousMedia, count > homogeneous,

@@ -1,4 +1,5 @@
 // Effects and quality as specialisation constants: `false` removes the code it guards.
+// Shader only: the reference simulates every effect, always.
 #ifndef CORE_EFFECTS_GLSL
 #define CORE_EFFECTS_GLSL
 

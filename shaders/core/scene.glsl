@@ -3,6 +3,7 @@
 #define CORE_SCENE_GLSL
 
 #include "core/effects.glsl"
+#include "core/unroll.glsl"
 #include "shared/path_types.h"
 #include "shared/scene_types.h"
 
@@ -19,15 +20,52 @@ layout(set = 0, binding = 9) uniform samplerBuffer lightCdfTexels;
 layout(set = 0, binding = 10) uniform usamplerBuffer lightTriangleTexels;
 layout(set = 0, binding = 11) uniform samplerBuffer filterTexels;
 
-// Up to this many shapes sit in the uniform block and are picked by comparison: cheaper than a gather.
-const bool hasFewShapes = shapeCount <= kMaxInlineShapes;
+// Private copies of what the path loop reads all the time. A load from the uniform block is a gather on
+// the software driver, whatever its offset, and none is moved out of a loop; these are registers.
+Camera camera;
+Quad nearQuads[kNearCount];
+Sphere nearSpheres[kNearCount];
+Box nearBoxes[kNearCount];
+Shape nearShapes[kNearCount];
+Medium nearMedium;
+Light nearLight;
+Quad nearLightQuad;      // of nearLight, where it is one
+Sphere nearLightSphere;
+vec3 environmentRadiance;
+uint environmentLight;
+uint maxDepth;
+uint rouletteDepth;
+uint triangleCount;
+
+// Shader only: fills the copies; every kernel calls it first.
+void loadScene() {
+#define LOAD_QUAD(i) nearQuads[i] = scene.quads[i];
+#define LOAD_SPHERE(i) nearSpheres[i] = scene.spheres[i];
+#define LOAD_BOX(i) nearBoxes[i] = scene.boxes[i];
+#define LOAD_SHAPE(i) nearShapes[i] = scene.shapes[i];
+    FOR_EACH_NEAR(quadCount, LOAD_QUAD)
+    FOR_EACH_NEAR(sphereCount, LOAD_SPHERE)
+    FOR_EACH_NEAR(boxCount, LOAD_BOX)
+    FOR_EACH_NEAR(shapeCount, LOAD_SHAPE)
+    camera = scene.camera;
+    nearMedium = scene.media[0];
+    nearLight = scene.lights[0];
+    nearLightQuad = scene.quads[min(nearLight.primitive, kMaxQuads - 1u)];
+    nearLightSphere = scene.spheres[min(nearLight.primitive - quadCount, kMaxSpheres - 1u)];
+    environmentRadiance = scene.environmentRadiance;
+    environmentLight = scene.environment;
+    maxDepth = scene.maxDepth;
+    rouletteDepth = scene.rouletteDepth;
+    triangleCount = scene.triangleCount;
+}
 
 // `reserved` is not read.
 Shape shapeAt(uint index) {
-    if (hasFewShapes) {
-        Shape shape = scene.shapes[0];
-        for (uint i = 1u; i < shapeCount; ++i)
-            if (index == i) shape = scene.shapes[i];
+    if (shapeCount <= kNearCount) {
+        Shape shape = nearShapes[0];
+#define PICK_SHAPE(i) \
+    if (index == i) shape = nearShapes[i];
+        FOR_EACH_NEAR(shapeCount, PICK_SHAPE)
         return shape;
     }
     vec4 a = texelFetch(shapeTexels, int(2u * index));

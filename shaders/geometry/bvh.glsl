@@ -7,12 +7,15 @@
 #include "geometry/ray.glsl"
 #include "geometry/triangle.glsl"
 
+// Shader only: 1 / d with the largest finite number for 1 / 0, so that a plane through the origin gives 0 and not
+// 0 * infinity, which would prune both of the boxes that share the face a ray runs in (numerics H39).
+vec3 finiteInverse(vec3 d) { return mix(1.0 / d, vec3(3.4028234e38), equal(d, vec3(0.0))); }
+
 // Entry distance of a box given per axis plane distances, or kInfinity; the far side is widened by
 // three roundings so that no ray slips between touching boxes (Ize 2013, "Robust BVH Ray Traversal").
 float boxEntry(vec3 minimum, vec3 maximum, vec3 origin, vec3 inverse, float tMin, float tMax) {
     vec3 a = (minimum - origin) * inverse;
     vec3 b = (maximum - origin) * inverse;
-    // NaN (0 * inf: the ray runs in a face) must not prune: min and max keep the other operand.
     vec3 entry = min(a, b), exit = max(a, b);
     float t0 = max(max(entry.x, entry.y), max(entry.z, tMin));
     float t1 = min(min(exit.x, exit.y), min(exit.z, tMax)) * 1.0000004;
@@ -24,11 +27,15 @@ void hitLeaf(inout Hit best, Ray ray, RayShear shear, int leaf, uint firstPrimit
     for (uint i = 0u; i < kMaxLeafTriangles; ++i) {
         uint triangle = first + min(i, count - 1u);
         int texel = int(kTriangleTexels * triangle);
-        vec3 hit = intersectTriangle(ray.origin, shear, texelFetch(triangleTexels, texel).xyz,
+        vec4 v0 = texelFetch(triangleTexels, texel);
+        bool isNull = (shapeAt(floatBitsToUint(v0.w)).flags & kShapeNull) != 0u;
+        vec3 hit = intersectTriangle(ray.origin, shear, v0.xyz,
                                      texelFetch(triangleTexels, texel + 1).xyz,
                                      texelFetch(triangleTexels, texel + 2).xyz);
         uint primitive = firstPrimitive + triangle;
-        if (hit.x > ray.tMin && primitive != ray.last && primitive != ray.target)
+        // A null triangle is crossed once; an opaque one may lie where the ray just left a medium.
+        bool inRange = hit.x > ray.tMin || (hit.x == ray.tMin && !isNull);
+        if (inRange && primitive != ray.last && primitive != ray.target)
             keepNearer(best, Hit(hit.x, primitive, hit.yz, false));
     }
 }
@@ -40,7 +47,7 @@ const uint kMaxTraversalSteps = 8192u;
 // limit cut the traversal short.
 bool traverse(inout Hit best, Ray ray, uint firstPrimitive, bool active_, inout uint tests) {
     RayShear shear = rayShear(ray.direction);
-    vec3 inverse = 1.0 / ray.direction;
+    vec3 inverse = finiteInverse(ray.direction);
     int stack[kBvhStackSize];
     int depth = 0;
     int node = active_ ? 0 : kBvhEnd;

@@ -3,6 +3,7 @@
 #define GEOMETRY_INTERSECTION_GLSL
 
 #include "core/scene.glsl"
+#include "core/unroll.glsl"
 #include "core/math.glsl"
 #include "geometry/bvh.glsl"
 #include "geometry/primitives.glsl"
@@ -16,47 +17,61 @@ struct Surface {
     uint shape;
 };
 
+// Whether `shape` is one of those that surround what is `inside`. Eight deep at most.
+bool surrounds(uint shape, uint inside) {
+    uint around = inside;
+    if (hasNestedMedia)
+        for (uint i = 0u; i < 8u && around != kNone && around != shape; ++i) around = shapeAt(around).exterior;
+    return around == shape && shape != kNone;
+}
+
 // The rule for convex primitives (README, "Rays"). `flags` are the shape's.
 void hitConvex(inout Hit best, Ray ray, vec2 interval, uint primitive, uint shape, uint flags) {
     bool isNull = (flags & kShapeNull) != 0u;
     bool around = isNull && shape == ray.inside;
-    bool ahead = interval.x + interval.y > 2.0 * ray.tMin && interval.y >= interval.x;
-    float entry = isNull ? max(interval.x, ray.tMin)
-                         : (interval.x >= ray.tMin && primitive != ray.last ? interval.x : interval.y);
-    bool enters = ahead && primitive != ray.target && (!isNull || (primitive != ray.last && interval.y > ray.tMin));
-    float t = around ? max(interval.y, ray.tMin) : entry;
+    bool ahead = interval.x + interval.y > 2.0 * ray.tMin;
+    bool own = primitive == ray.last;
+    float opaque = interval.x >= ray.tMin && !own ? interval.x : interval.y;
+    bool candidate = interval.y >= interval.x && interval.y > ray.tMin && primitive != ray.target;
+    bool enters = candidate && (isNull ? ahead && !surrounds(shape, ray.inside) : ahead || !own);
+    float t = around ? max(interval.y, ray.tMin) : (isNull ? max(interval.x, ray.tMin) : opaque);
     if (around || enters) keepNearer(best, Hit(t, primitive, vec2(0.0), around));
+}
+
+// Shader only: within closestHit in the reference.
+void hitQuad(inout Hit best, Ray ray, Quad quad, uint primitive) {
+    float t = intersectQuad(quad, ray.origin, ray.direction);
+    if (t >= ray.tMin && primitive != ray.last && primitive != ray.target)
+        keepNearer(best, Hit(t, primitive, vec2(0.0), false));
+}
+
+// Shader only: as above.
+void hitSphere(inout Hit best, Ray ray, Sphere sphere, uint primitive) {
+    vec2 interval = sphereInterval(sphere.center, sphere.radius, ray.origin, ray.direction);
+    hitConvex(best, ray, interval, primitive, sphere.shape, sphere.flags);
+}
+
+// Shader only: as above.
+void hitBox(inout Hit best, Ray ray, Box box, uint primitive) {
+    vec2 interval = boxInterval(box.localFromWorld, ray.origin, ray.direction);
+    hitConvex(best, ray, interval, primitive, box.shape, box.flags);
 }
 
 // First hit in [tMin, tMax) for lanes that are `active_`. Sets ok to false when a traversal was cut short.
 Hit closestHit(Ray ray, bool active_, inout uint tests, inout bool ok) {
     Hit best = Hit(ray.tMax, kNone, vec2(0.0), false);
-    if (hasQuads) {
-        for (uint i = 0u; i < quadCount; ++i) {
-            float t = intersectQuad(scene.quads[i], ray.origin, ray.direction);
-            if (t > ray.tMin && i != ray.last && i != ray.target)
-                keepNearer(best, Hit(t, i, vec2(0.0), false));
-        }
-        tests += quadCount + 1u;
-    }
-    if (hasSpheres) {
-        for (uint i = 0u; i < sphereCount; ++i) {
-            Sphere s = scene.spheres[i];
-            vec2 interval = sphereInterval(s.center, s.radius, ray.origin, ray.direction);
-            hitConvex(best, ray, interval, quadCount + i, s.shape, s.flags);
-        }
-        tests += sphereCount + 1u;
-    }
-    if (hasBoxes) {
-        for (uint i = 0u; i < boxCount; ++i) {
-            Box b = scene.boxes[i];
-            vec2 interval = boxInterval(b.localFromWorld, ray.origin, ray.direction);
-            hitConvex(best, ray, interval, quadCount + sphereCount + i, b.shape, b.flags);
-        }
-        tests += boxCount + 1u;
-    }
+#define NEAR_QUAD(i) hitQuad(best, ray, nearQuads[i], i);
+#define FAR_QUAD(i) hitQuad(best, ray, scene.quads[i], i);
+#define NEAR_SPHERE(i) hitSphere(best, ray, nearSpheres[i], quadCount + i);
+#define FAR_SPHERE(i) hitSphere(best, ray, scene.spheres[i], quadCount + i);
+#define NEAR_BOX(i) hitBox(best, ray, nearBoxes[i], quadCount + sphereCount + i);
+#define FAR_BOX(i) hitBox(best, ray, scene.boxes[i], quadCount + sphereCount + i);
+    if (hasQuads) { FOR_EACH(quadCount, NEAR_QUAD, FAR_QUAD) }
+    if (hasSpheres) { FOR_EACH(sphereCount, NEAR_SPHERE, FAR_SPHERE) }
+    if (hasBoxes) { FOR_EACH(boxCount, NEAR_BOX, FAR_BOX) }
+    tests += quadCount + (sphereCount + boxCount) * (hasNestedMedia ? 10u : 1u) + 3u;
     if (hasTriangles)
-        ok = traverse(best, ray, quadCount + sphereCount + boxCount, active_ && scene.triangleCount > 0u, tests) && ok;
+        ok = traverse(best, ray, quadCount + sphereCount + boxCount, active_ && triangleCount > 0u, tests) && ok;
     return best;
 }
 
@@ -89,6 +104,11 @@ vec3 boxNormal(Box box, vec3 position) {
     return normalize(face * mat3(box.localFromWorld));
 }
 
+// Shader only: within surfaceAt in the reference.
+Surface quadSurface(Quad quad, vec3 position) {
+    return Surface(position, quad.normal, quad.normal, vec3(0.0), quad.shape);
+}
+
 Surface sphereSurface(Sphere s, vec3 position) {
     vec3 n = normalize(position - s.center);
     vec3 front = (s.flags & kShapeFlipNormal) != 0u ? -n : n;
@@ -101,23 +121,28 @@ Surface boxSurface(Box b, vec3 position) {
     return Surface(position, front, front, vec3(0.0), b.shape);
 }
 
-// The primitives are picked by comparison: loads at constant offsets cost less than gathers.
+// The primitive is picked by comparison: that costs less than a gather.
 Surface surfaceAt(Ray ray, Hit hit) {
     vec3 position = ray.origin + ray.direction * hit.t;
     Surface surface = Surface(position, vec3(0.0), vec3(0.0), vec3(0.0), 0u);
-    if (hasQuads)
-        for (uint i = 0u; i < quadCount; ++i)
-            if (hit.primitive == i)
-                surface = Surface(position, scene.quads[i].normal, scene.quads[i].normal, vec3(0.0), scene.quads[i].shape);
-    if (hasSpheres)
-        for (uint i = 0u; i < sphereCount; ++i)
-            if (hit.primitive == quadCount + i) surface = sphereSurface(scene.spheres[i], position);
-    if (hasBoxes)
-        for (uint i = 0u; i < boxCount; ++i)
-            if (hit.primitive == quadCount + sphereCount + i) surface = boxSurface(scene.boxes[i], position);
+#define PICK_QUAD(i) \
+    if (hit.primitive == i) surface = quadSurface(nearQuads[i], position);
+#define PICK_FAR_QUAD(i) \
+    if (hit.primitive == i) surface = quadSurface(scene.quads[i], position);
+#define PICK_SPHERE(i) \
+    if (hit.primitive == quadCount + i) surface = sphereSurface(nearSpheres[i], position);
+#define PICK_FAR_SPHERE(i) \
+    if (hit.primitive == quadCount + i) surface = sphereSurface(scene.spheres[i], position);
+#define PICK_BOX(i) \
+    if (hit.primitive == quadCount + sphereCount + i) surface = boxSurface(nearBoxes[i], position);
+#define PICK_FAR_BOX(i) \
+    if (hit.primitive == quadCount + sphereCount + i) surface = boxSurface(scene.boxes[i], position);
+    if (hasQuads) { FOR_EACH(quadCount, PICK_QUAD, PICK_FAR_QUAD) }
+    if (hasSpheres) { FOR_EACH(sphereCount, PICK_SPHERE, PICK_FAR_SPHERE) }
+    if (hasBoxes) { FOR_EACH(boxCount, PICK_BOX, PICK_FAR_BOX) }
     if (hasTriangles) {
         uint index = hit.primitive - (quadCount + sphereCount + boxCount);
-        if (index < scene.triangleCount) surface = triangleSurface(index, hit.uv);
+        if (index < triangleCount) surface = triangleSurface(index, hit.uv);
     }
     return surface;
 }

@@ -8,7 +8,7 @@ struct Ray {
     float tMin;
     vec3 direction;  // unit
     float tMax;
-    uint last;       // primitive the ray starts on or crossed last, or kNone
+    uint last;       // primitive the ray starts on, or kNone
     uint target;     // primitive to ignore (the light a shadow ray goes to), or kNone
     uint inside;     // shape whose interior surrounds the ray at tMin, or kNone
 };

@@ -17,13 +17,13 @@ vec2 filmPosition(uvec2 pixel, vec2 u) {
     vec2 position = vec2(pixel) + u;
     if (hasFilterTable) {
         vec2 filtered = vec2(pixel) + 0.5 + vec2(filterOffset(u.x), filterOffset(u.y));
-        position = scene.camera.filterRadius == 0.5 ? position : filtered;
+        position = camera.filterRadius == 0.5 ? position : filtered;
     }
     return position;
 }
 
 vec3 cameraDirection(vec2 film) {
-    return normalize(scene.camera.forward + film.x * scene.camera.dx + film.y * scene.camera.dy);
+    return normalize(camera.forward + film.x * camera.dx + film.y * camera.dy);
 }
 
 #endif

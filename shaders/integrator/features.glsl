@@ -10,7 +10,7 @@
 // Adds one camera ray. Boundaries crossed are bounded by `crossings`; false when it or a traversal cut
 // the ray short.
 bool addFeature(inout FeaturePixel pixel, uvec2 film, vec2 u, inout uint tests, uint crossings) {
-    Ray ray = Ray(vec3(0.0), 0.0, cameraDirection(filmPosition(film, u)), kInfinity, kNone, kNone, scene.camera.inside);
+    Ray ray = Ray(vec3(0.0), 0.0, cameraDirection(filmPosition(film, u)), kInfinity, kNone, kNone, camera.inside);
     bool ok = true, crossing = true;
     for (uint i = 0u; i < crossings && crossing; ++i) {
         Hit hit = closestHit(ray, true, tests, ok);
@@ -22,7 +22,6 @@ bool addFeature(inout FeaturePixel pixel, uvec2 film, vec2 u, inout uint tests, 
             if (crossing) {
                 ray.inside = crossBoundary(ray, hit, surface.shape, shape.exterior, surface.geometricNormal);
                 ray.tMin = hit.t;
-                ray.last = hit.primitive;
             } else {
                 pixel.albedo += shape.reflectance;
                 pixel.normal += surface.shadingNormal;

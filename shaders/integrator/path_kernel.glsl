@@ -1,4 +1,5 @@
 // The loop of the path tracing kernel, its film and its counters.
+// Shader only: the reference's loop over samples is that of its renderer.
 #ifndef INTEGRATOR_PATH_KERNEL_GLSL
 #define INTEGRATOR_PATH_KERNEL_GLSL
 
@@ -46,6 +47,7 @@ void finishPath(inout Path p, inout FilmPixel pixel, inout uvec3 anomalies) {
 
 // Shader only: the twin's nested loops are tracePath.
 void tracePixel(uint lane) {
+    loadScene();
     uvec2 pixel = arguments.cropOffset + lanePixel(lane);
     uvec2 inCrop = pixel - arguments.cropOffset;
     uint filmIndex = inCrop.y * arguments.cropSize.x + inCrop.x;

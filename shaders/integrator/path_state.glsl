@@ -1,4 +1,5 @@
 // A path in flight, and how a lane keeps it between dispatches.
+// Shader only: the reference never suspends a path.
 #ifndef INTEGRATOR_PATH_STATE_GLSL
 #define INTEGRATOR_PATH_STATE_GLSL
 
@@ -78,6 +79,7 @@ void savePath(uint lane, uint stride, Path p) {
     storeVector(at, stride, vec3(s.t, s.residual, s.threshold));
     storeVector(at, stride, s.weight);
     storeVector(at, stride, s.ratio);
+    storeWord(at, stride, floatBitsToUint(s.end));
     storeWord(at, stride, s.collisions);
     storeWord(at, stride, uint(s.cell.x) | uint(s.cell.y) << 10u | uint(s.cell.z) << 20u);
     storeWord(at, stride, s.state | (s.shadow ? 4u : 0u) | (p.hit.exits ? 8u : 0u) | s.hero << 4u);
@@ -111,9 +113,10 @@ void loadPath(uint lane, uint stride, inout Path p) {
     float u = loadFloat(at, stride), v = loadFloat(at, stride);
     vec3 progress = loadVector(at, stride);
     vec3 weight = loadVector(at, stride), ratio = loadVector(at, stride);
+    float end = loadFloat(at, stride);
     uint collisions = loadWord(at, stride), cell = loadWord(at, stride), bits = loadWord(at, stride);
     p.hit = Hit(distances.z, primitive, vec2(u, v), (bits & 8u) != 0u);
-    p.segment = Segment(progress.x, distances.z, progress.y, collisions,
+    p.segment = Segment(progress.x, end, progress.y, collisions,
                         ivec3(uvec3(cell, cell >> 10u, cell >> 20u) & 1023u), bits & 3u, (bits & 4u) != 0u,
                         bits >> 4u, progress.z, weight, ratio);
     p.vertex = loadWord(at, stride);

@@ -19,12 +19,14 @@ struct Counts {
     bool traversalsOk;
 };
 
+// Shader only: the reference refers to media.
 Medium mediumAt(uint index) {
-    if (!hasManyMedia) return scene.media[0];
+    if (!hasManyMedia) return nearMedium;
     return scene.media[min(index, kMaxMedia - 1u)];
 }
 
 // Throughput with the weight of spectral MIS: balance heuristic over the three hero channels.
+// Shader only: within addEmission and scatter in the reference.
 vec3 spectralBeta(Path p) {
     if (!hasChromaticExtinction) return p.beta;
     vec3 r = p.segment.ratio;
@@ -40,6 +42,7 @@ const uint kFinish = 4u;    // the path is complete
 const uint kBegin = 5u;     // the window's first path
 
 // Sends the flight or the shadow ray off from the vertex.
+// Shader only: spawnRay in the reference, which has a ray for flights and one for shadows.
 void startRay(inout Path p, bool shadow, DirectLight light, uvec2 shadowExponential) {
     vec3 direction = shadow ? light.direction : p.nextDirection;
     uvec2 word = shadow ? shadowExponential : p.nextExponential;
@@ -75,11 +78,12 @@ void startPath(inout Path p, uint pixelIndex, uvec2 pixel, PathArguments argumen
     p.nextExponential = uvec2(word.z, spareBits(word.x, word.y, word.w));
     p.vertexPosition = vec3(0.0);
     p.vertexOffset = vec3(0.0);
-    p.vertexInside = scene.camera.inside;
+    p.vertexInside = camera.inside;
     p.vertexLast = kNone;
 }
 
 // Finds what ends the ray's next segment and readies its tracking.
+// Shader only: the reference loops over segments in fly and estimateTransmittance.
 void startSegment(inout Path p, bool starts, inout Counts counts) {
     bool ok = true;
     Hit hit = closestHit(p.ray, starts, counts.tests, ok);
@@ -91,18 +95,24 @@ void startSegment(inout Path p, bool starts, inout Counts counts) {
     p.segment.t = p.ray.tMin;
     p.segment.end = hit.t;
     p.segment.state = kArrived;
-    if (hasMedia) {
-        uint medium = interiorOf(p.ray.inside);
-        if (medium != kNone) {
-            p.segment.state = kTracking;
-            p.segment.cell = hasHeterogeneousMedia ? startCell(mediumAt(medium), p.ray.origin, p.ray.direction, p.ray.tMin)
-                                                   : ivec3(0);
-            if (hasHomogeneousMedia) stepAnalytically(p.segment, mediumAt(medium));
+    uint index = hasMedia ? interiorOf(p.ray.inside) : kNone;
+    if (hasMedia && index != kNone) {
+        Medium medium = mediumAt(index);
+        p.segment.state = kTracking;
+        p.segment.cell = ivec3(0);
+        if (hasHeterogeneousMedia && (medium.flags & kMediumHomogeneous) == 0u) {
+            vec2 interval = gridInterval(medium, p.ray.origin, p.ray.direction);
+            p.segment.t = max(p.ray.tMin, interval.x);
+            p.segment.end = min(hit.t, interval.y);
+            p.segment.state = p.segment.t < p.segment.end ? kTracking : kArrived;
+            p.segment.cell = startCell(medium, p.ray.origin, p.ray.direction, p.segment.t);
         }
+        if (hasHomogeneousMedia) stepAnalytically(p.segment, medium);
     }
 }
 
 // Tracks up to stepsPerEvent events through the medium.
+// Shader only: trackFlight and trackShadow in the reference.
 void trackSegment(inout Path p, inout Counts counts) {
     uint index = hasManyMedia ? interiorOf(p.ray.inside) : 0u;
     Medium medium = mediumAt(index);

@@ -4,19 +4,19 @@
 
 // Emission of the surface hit, weighted against next-event estimation at the vertex before.
 void addEmission(inout Path p, Surface surface, uint lightIndex) {
-    if (lightIndex == kNone || p.vertex >= scene.maxDepth) return;
-    Light light = scene.lights[lightIndex];
+    if (lightIndex == kNone || p.vertex >= maxDepth) return;
+    Light light = lightAt(lightIndex);
     float cosine = -dot(surface.geometricNormal, p.ray.direction);
     float weight = balanceHeuristic(p.lastPdf, lightPdf(light, p.ray.origin, p.hit.t, cosine));
     if (cosine > 0.0) p.radiance += spectralBeta(p) * light.emission * weight;
 }
 
 void addEnvironment(inout Path p) {
-    if (scene.environment == kNone || p.vertex >= scene.maxDepth) return;
+    if (environmentLight == kNone || p.vertex >= maxDepth) return;
     float weight = 1.0;
     if (hasEnvironmentSampling)
-        weight = balanceHeuristic(p.lastPdf, kInvFourPi * scene.lights[scene.environment].selection);
-    p.radiance += spectralBeta(p) * scene.environmentRadiance * weight;
+        weight = balanceHeuristic(p.lastPdf, kInvFourPi * scene.lights[environmentLight].selection);
+    p.radiance += spectralBeta(p) * environmentRadiance * weight;
 }
 
 // What a vertex scatters with, for the lanes that have one.
@@ -33,8 +33,8 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
     p.beta *= v.factor;
     uvec4 word = draw(p.key, p.vertex, kDrawScatter);
     float largest = maxComponent(spectralBeta(p));
-    float survival = p.vertex >= scene.rouletteDepth ? clamp(largest, 0.05, 1.0) : 1.0;
-    bool alive = p.vertex < scene.maxDepth && largest > 0.0 && toUniform(word.w) < survival;
+    float survival = p.vertex >= rouletteDepth ? clamp(largest, 0.05, 1.0) : 1.0;
+    bool alive = p.vertex < maxDepth && largest > 0.0 && toUniform(word.w) < survival;
     p.beta /= survival;
     vec4 next = sampleScatterer(v.scatterer, vec2(toUniform(word.x), toUniform(word.y)));
     p.lastPdf = next.w;
@@ -85,6 +85,7 @@ Vertex mediumVertex(inout Path p) {
 }
 
 // The segment's end was reached: a boundary to cross, a surface, the light, or nothing at all.
+// Shader only: within fly and handleEvent in the reference.
 uint arrive(inout Path p, inout Vertex vertex) {
     bool miss = p.hit.primitive == kNone;
     Surface surface = surfaceAt(p.ray, p.hit);
@@ -94,7 +95,6 @@ uint arrive(inout Path p, inout Vertex vertex) {
     if (boundary) {
         p.ray.inside = crossBoundary(p.ray, p.hit, surface.shape, shape.exterior, surface.geometricNormal);
         p.ray.tMin = p.hit.t;
-        p.ray.last = p.hit.primitive;
         next = kCross;
     } else if (p.segment.shadow) {
         if (miss) p.radiance += p.pending * p.segment.weight;

@@ -13,6 +13,7 @@ layout(set = 0, binding = 14, scalar) buffer CounterBlock { uint counters[]; };
 layout(set = 0, binding = 15, scalar) buffer FeatureBlock { FeaturePixel features[]; };
 
 void main() {
+    loadScene();
     uint index = arguments.firstPixel + gl_GlobalInvocationID.x;
     if (gl_GlobalInvocationID.x >= arguments.laneCount) return;
     uvec2 pixel = arguments.cropOffset + uvec2(index % arguments.cropSize.x, index / arguments.cropSize.x);

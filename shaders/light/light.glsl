@@ -16,6 +16,24 @@ struct LightSample {
     uint target;            // primitive to ignore on the way
 };
 
+// Shader only: the reference refers to lights.
+Light lightAt(uint index) {
+    if (!hasManyLights) return nearLight;
+    return scene.lights[index];
+}
+
+// Shader only: as above.
+Quad quadOf(Light light) {
+    if (!hasManyLights) return nearLightQuad;
+    return scene.quads[light.primitive];
+}
+
+// Shader only: as above.
+Sphere sphereOf(Light light) {
+    if (!hasManyLights) return nearLightSphere;
+    return scene.spheres[light.primitive - quadCount];
+}
+
 // First light whose cumulative probability is above u.
 uint selectLight(float u) {
     uint low = 0u;
@@ -39,7 +57,7 @@ float oneMinusCosCone(vec3 toCenter, float radius) {
 }
 
 LightSample sampleSphereLight(Light light, vec3 position, vec2 u) {
-    Sphere s = scene.spheres[light.primitive - quadCount];
+    Sphere s = sphereOf(light);
     vec3 toCenter = s.center - position;
     float cone = oneMinusCosCone(toCenter, s.radius);
     float pdf = light.selection * safeDivide(0.5 * kInvPi, cone);
@@ -74,10 +92,10 @@ LightSample sampleMeshLight(Light light, vec3 position, float selector, vec2 u, 
 LightSample sampleLight(vec3 position, vec3 u, inout uint tests) {
     uint index = selectLight(u.x);
     tests += hasManyLights ? 9u : 0u;
-    Light light = scene.lights[index];
+    Light light = lightAt(index);
     LightSample result = LightSample(vec3(0.0, 0.0, 1.0), kInfinity, vec3(0.0), 1.0, kNone);
     if (hasAreaLights && light.type == kLightQuad) {
-        Quad q = scene.quads[light.primitive];
+        Quad q = quadOf(light);
         vec3 point = q.corner + u.y * q.edgeU + u.z * q.edgeV;
         result = sampleArea(light, position, point, q.normal, q.area, light.primitive);
     }
@@ -107,10 +125,10 @@ LightSample sampleLight(vec3 position, vec3 u, inout uint tests) {
 // left `origin` and met the light after distance t under `cosine` at its front.
 float lightPdf(Light light, vec3 origin, float t, float cosine) {
     float pdf = 0.0;
-    if (light.type == kLightQuad) pdf = safeDivide(t * t, cosine * scene.quads[light.primitive].area);
+    if (light.type == kLightQuad) pdf = safeDivide(t * t, cosine * quadOf(light).area);
     if (light.type == kLightMesh) pdf = safeDivide(t * t, cosine * light.area);
     if (hasSpheres && light.type == kLightSphere) {
-        Sphere s = scene.spheres[light.primitive - quadCount];
+        Sphere s = sphereOf(light);
         pdf = safeDivide(0.5 * kInvPi, oneMinusCosCone(s.center - origin, s.radius));
     }
     if (light.type == kLightEnvironment) pdf = kInvFourPi;

@@ -35,7 +35,7 @@ uint spareBits(uint x, uint y, uint z) { return (x & 255u) << 16u | (y & 255u) <
 
 // -log of a uniform number of 48 bits, in (0, 33.3]: the first 24 alone would end flights at 16.6.
 float exponential(uint high, uint low24) {
-    float rest = 1.0 - (float(low24) + 0.5) * 5.9604644775390625e-8;
+    float rest = (float(0xffffffu - low24) + 0.5) * 5.9604644775390625e-8;  // never 0
     return -logPositive((float(0xffffffu - (high >> 8u)) + rest) * 5.9604644775390625e-8);
 }
 

@@ -28,6 +28,7 @@
     X(hasDepthLimit, 18, "path depth limit")                                    \
     X(hasDoubleSided, 19, "two-sided surfaces")                                 \
     X(hasVertexNormals, 20, "interpolated vertex normals")                      \
-    X(hasFilterTable, 21, "non-box reconstruction filter")
+    X(hasFilterTable, 21, "non-box reconstruction filter")                      \
+    X(hasNestedMedia, 22, "media within media")
 
 #endif

@@ -48,7 +48,7 @@ SHARED_CONST(uint, kDrawShadow, 0x80000000u);    // | index of the tentative col
 
 // A path saved between dispatches: kPathStateWords words, word w of lane l at w * lanes + l. Word
 // kPathSampleWord counts the samples the lane has finished in this window.
-SHARED_CONST(uint, kPathStateWords, 52u);
+SHARED_CONST(uint, kPathStateWords, 53u);
 SHARED_CONST(uint, kPathSampleWord, 0u);
 
 struct PathArguments {

@@ -16,7 +16,7 @@ SHARED_CONST(uint, kMaxSpheres, 256u);
 SHARED_CONST(uint, kMaxBoxes, 64u);
 SHARED_CONST(uint, kMaxMedia, 16u);
 SHARED_CONST(uint, kMaxLights, 256u);
-SHARED_CONST(uint, kMaxInlineShapes, 32u);
+SHARED_CONST(uint, kMaxInlineShapes, 8u);
 
 SHARED_CONST(uint, kNone, 0xffffffffu);  // "no shape / medium / light / primitive"
 
@@ -161,7 +161,7 @@ struct SceneConstants {
     Light lights[kMaxLights];
     Shape shapes[kMaxInlineShapes];  // the first of the shapes, a copy
 };
-SHARED_LAYOUT(SceneConstants, 48 + 48 + 64 * 96 + 256 * 32 + 64 * 64 + 16 * 192 + 256 * 64 + 32 * 32);
+SHARED_LAYOUT(SceneConstants, 48 + 48 + 64 * 96 + 256 * 32 + 64 * 64 + 16 * 192 + 256 * 64 + 8 * 32);
 
 // BVH: four texels per inner node: (min0, child0) (max0, 0) (min1, child1) (max1, 0), children
 // bit-cast ints. child >= 0: inner node; child < 0: leaf ~((firstTriangle << 3) | count), count in

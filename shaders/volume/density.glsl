@@ -8,7 +8,7 @@
 
 // Voxel of a medium's grid; `voxel` is inside the resolution.
 float densityVoxel(Medium medium, uvec3 voxel) {
-    if (hasBrickedDensity) {
+    if (hasBrickedDensity && (medium.flags & kMediumBricked) != 0u) {
         uvec3 bricks = (medium.resolution + 7u) / 8u;
         uvec3 brick = voxel >> 3u, local = voxel & 7u;
         uint entry = texelFetch(brickTexels,

@@ -26,6 +26,18 @@ GridRay gridRay(Medium medium, vec3 origin, vec3 direction, ivec3 cell) {
     return GridRay(medium.gridFromWorld * vec4(origin, 1.0), d, 1.0 / d, forward, border, 2 * ivec3(forward) - 1);
 }
 
+// Where the ray is inside the grid's box: a grid medium ends there, whatever its boundary encloses.
+vec2 gridInterval(Medium medium, vec3 origin, vec3 direction) {
+    vec3 o = medium.gridFromWorld * vec4(origin, 1.0);
+    vec3 d = mat3(medium.gridFromWorld) * direction;
+    vec3 inverse = 1.0 / d, a = -o * inverse, b = (vec3(medium.resolution) - o) * inverse;
+    bvec3 still = equal(d, vec3(0.0));
+    vec3 entry = mix(min(a, b), vec3(-kInfinity), still), exit = mix(max(a, b), vec3(kInfinity), still);
+    vec3 beyond = max(-o, o - vec3(medium.resolution));
+    bool misses = any(greaterThan(mix(vec3(-1.0), beyond, still), vec3(0.0)));
+    return misses ? vec2(1.0, -1.0) : vec2(max(entry.x, max(entry.y, entry.z)), min(exit.x, min(exit.y, exit.z)));
+}
+
 // Cell of the point at distance t.
 ivec3 startCell(Medium medium, vec3 origin, vec3 direction, float t) {
     vec3 p = medium.gridFromWorld * vec4(origin, 1.0) + t * (mat3(medium.gridFromWorld) * direction);

@@ -27,6 +27,7 @@ struct Segment {
     vec3 ratio;        // density of the path so far under each hero channel, up to a common factor
 };
 
+// Shader only: spelt out where the reference draws.
 uint segmentPurpose(Segment s) { return (s.shadow ? kDrawShadow : kDrawFlight) | s.collisions; }
 
 // What a tentative collision does: q is the real share of the majorant, per channel.
@@ -52,6 +53,7 @@ void decideShadow(inout Segment s, vec3 q, float u) {
 
 // Homogeneous media: the one cell has no planes, its density is the bound, and a shadow ray needs no
 // collisions. Returns true where the analytic transmittance took the whole segment.
+// Shader only: within trackShadow in the reference.
 bool stepAnalytically(inout Segment s, Medium medium) {
     bool homogeneous = hasHomogeneousMedia && (!hasHeterogeneousMedia || (medium.flags & kMediumHomogeneous) != 0u);
     bool analytic = homogeneous && s.shadow;
@@ -69,6 +71,7 @@ bool stepAnalytically(inout Segment s, Medium medium) {
 }
 
 // One event: the next tentative collision, the next cell, or the end of the segment.
+// Shader only: nextCollision and its loops in the reference.
 void stepSegment(inout Segment s, Medium medium, GridRay ray, uvec2 key, uint vertex, inout uint violations) {
     bool homogeneous = hasHomogeneousMedia && (!hasHeterogeneousMedia || (medium.flags & kMediumHomogeneous) != 0u);
     vec3 planes = vec3(kInfinity);

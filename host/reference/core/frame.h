@@ -15,7 +15,8 @@ struct Frame {
 /// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1).
 template <typename Real>
 Frame<Real> frameFromNormal(const Vec3<Real>& n) {
-    const Real sign = std::copysign(Real(1), n.z);
+    // Not the sign bit: normals get a negative zero when they are flipped, which must not turn the basis.
+    const Real sign = n.z >= 0 ? Real(1) : Real(-1);
     const Real a = Real(-1) / (sign + n.z);
     const Real b = n.x * n.y * a;
     return {Vec3<Real>(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3<Real>(b, sign + n.y * n.y * a, -n.y), n};

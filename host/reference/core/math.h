@@ -35,10 +35,10 @@ Real logPositive(Real x) {
     return std::log(x);
 }
 
-/// exp(-x) for x >= 0.
+/// exp(x) for x <= 0.
 template <typename Real>
 Real expNegative(Real x) {
-    return std::exp(-x);
+    return std::exp(x);
 }
 
 /// (sin, cos) of 2 pi u, u in [0, 1).

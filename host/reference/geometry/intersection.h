@@ -14,7 +14,6 @@ struct Surface {
 };
 
 /// Whether `shape` is `inside` or surrounds it.
-/// Reference only: the shader has it where it meets a null shape.
 template <typename Real>
 bool surrounds(const SceneView<Real>& scene, std::uint32_t shape, std::uint32_t inside) {
     while (inside != kNone && inside != shape) inside = scene.shapeAt(inside).exterior;

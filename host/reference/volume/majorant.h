@@ -25,6 +25,24 @@ CellWalk<Real> gridRay(const Medium<Real>& medium, const Vec3<Real>& origin, con
     return walk;
 }
 
+/// Where the walk's ray is inside the grid's box, first distance above the second where it is not: a grid medium ends
+/// there, whatever its boundary encloses.
+template <typename Real>
+Vec2<Real> gridInterval(const Medium<Real>& medium, const CellWalk<Real>& walk) {
+    Vec2<Real> interval(-kInfinity<Real>, kInfinity<Real>);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Real o = walk.origin[axis], size = Real(medium.resolution[axis]);
+        if (walk.direction[axis] == 0) {
+            if (o < 0 || o > size) return {Real(1), Real(-1)};
+            continue;
+        }
+        const Real a = -o * walk.inverse[axis], b = (size - o) * walk.inverse[axis];
+        interval.x = std::max(interval.x, std::min(a, b));
+        interval.y = std::min(interval.y, std::max(a, b));
+    }
+    return interval;
+}
+
 /// Puts the walk at distance t of its ray.
 template <typename Real>
 void startCell(const Medium<Real>& medium, Real t, CellWalk<Real>& walk) {

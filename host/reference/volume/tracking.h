@@ -142,6 +142,20 @@ std::optional<Real> trackHomogeneousFlight(const PathContext<Real, Trace>& path,
     }
 }
 
+/// Puts the walk where the segment [tMin, tEnd] enters the grid, and ends the segment where it leaves it.
+/// Reference only: part of startSegment in the shader.
+///
+/// @return whether any of it is inside.
+template <typename Real>
+bool clipToGrid(const Medium<Real>& medium, Real tMin, Real& tEnd, CellWalk<Real>& walk) {
+    const Vec2<Real> interval = gridInterval(medium, walk);
+    const Real start = std::max(tMin, interval.x);
+    tEnd = std::min(tEnd, interval.y);
+    if (!(start < tEnd)) return false;
+    startCell(medium, start, walk);
+    return true;
+}
+
 /// Samples where a path scatters in one medium between ray.tMin and tEnd.
 /// Reference only: a loop over collisions; the shader takes one at a time.
 ///
@@ -157,7 +171,7 @@ std::optional<Real> trackFlight(const PathContext<Real, Trace>& path, const Medi
         return t;
     }
     CellWalk<Real> walk = gridRay(medium, ray.origin, ray.direction);
-    startCell(medium, ray.tMin, walk);
+    if (!clipToGrid(medium, ray.tMin, tEnd, walk)) return std::nullopt;
     while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
         const glm::uvec4 words = draw(path.key, vertex, shared::kDrawFlight | residual.index);
         const Real density = densityHere(path, medium, walk, words);
@@ -188,11 +202,11 @@ bool trackShadow(const PathContext<Real, Trace>& path, const Medium<Real>& mediu
     if (medium.homogeneous) {
         ++path.counters[shared::kCounterSteps];
         const Vec3<Real> depth = medium.sigmaMax * medium.sigmaRatio * (tEnd - ray.tMin);
-        weight *= Vec3<Real>(expNegative(depth.x), expNegative(depth.y), expNegative(depth.z));
+        weight *= Vec3<Real>(expNegative(-depth.x), expNegative(-depth.y), expNegative(-depth.z));
         return maxComponent(weight) > 0;
     }
     CellWalk<Real> walk = gridRay(medium, ray.origin, ray.direction);
-    startCell(medium, ray.tMin, walk);
+    if (!clipToGrid(medium, ray.tMin, tEnd, walk)) return true;
     while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
         const glm::uvec4 words = draw(path.key, vertex, shared::kDrawShadow | residual.index);
         const Vec3<Real> q = medium.sigmaRatio * (densityHere(path, medium, walk, words) / walk.bound);

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "support/shared_data.h"
+#include "support/slab.h"
+
+// Every row of the table of exact slabs, at every scale, at both angles of incidence, on both back ends.
+namespace parhelion {
+namespace {
+
+using namespace test;
+
+using View = std::tuple<Backend, double, double, bool>;  ///< thickness, mu, lit from above
+
+class SlabTable : public testing::TestWithParam<View> {};
+
+TEST_P(SlabTable, HoldsTo2PerMille) {
+    const auto table = sharedFile("references/slabs.csv");
+    if (table.empty()) GTEST_SKIP() << "../shared/references/slabs.csv is missing";
+    const auto [backend, thickness, mu, litFromAbove] = GetParam();
+    const std::vector<SlabRow> rows = readSlabRows(table);
+    ASSERT_GE(rows.size(), 25u);
+    SlabScores scores(rows.size());
+    std::uint32_t seed = 3000;  // pooled estimates must be independent
+    for (const SlabRow& row : rows) {
+        const CompiledScene scene = slabScene(row, {.mu = mu, .litFromAbove = litFromAbove, .thickness = thickness});
+        const Film film = renderOn(backend, scene, samplesFor(scene, litFromAbove ? 2e7 : 4e6), ++seed);
+        EXPECT_EQ(countAnomalies(film), 0u);
+        const double exact = litFromAbove ? (mu == 1 ? row.reflected1 : row.reflected05)
+                                          : (mu == 1 ? row.transmitted1 : row.transmitted05);
+        scores.add(imageMean(film), exact, row.name());
+    }
+    scores.expectNoCommonBias(0.002, "all rows");
+}
+
+INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, SlabTable,
+                         testing::Combine(testing::ValuesIn(kBackends), testing::Values(1e-3, 1.0, 1e3),
+                                          testing::Values(1.0, 0.5), testing::Bool()),
+                         [](const auto& info) {
+                             const auto [backend, thickness, mu, litFromAbove] = info.param;
+                             return fmt::format("{}{}{}{}", name(backend),
+                                                thickness < 1   ? "Thin"
+                                                : thickness > 1 ? "Thick"
+                                                                : "Unit",
+                                                mu == 1 ? "Normal" : "Slanted",
+                                                litFromAbove ? "Reflected" : "Transmitted");
+                         });
+
+}  // namespace
+}  // namespace parhelion

@@ -1,0 +1,19 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "../support/probe.glsl"
+#include "volume/density.glsl"
+
+void probeItem() {
+    uint index = floatBitsToUint(probeInput(0u).w);
+    Medium medium = scene.media[index];
+    vec3 position = probeInput(0u).xyz, u = probeInput(1u).xyz;
+    switch (probeFunction) {
+        case 0u: probeOutput(0u, vec4(densityVoxel(medium, uvec3(position)))); break;
+        case 1u:
+            uvec3 corner = stochasticCorner(position, medium.resolution, u);
+            probeOutput(0u, vec4(corner, stochasticDensity(medium, position, u)));
+            probeOutput(1u, vec4(trilinearDensity(medium, position), densityAt(medium, position, u), 0.0, 0.0));
+            break;
+        case 2u: probeOutput(0u, vec4(albedoAt(medium, position, u), 0.0)); break;
+    }
+}

@@ -1,0 +1,73 @@
+// shaders/sampling/distribution.glsl: the same entry, always.
+#include "reference/sampling/distribution.h"
+
+#include <gtest/gtest.h>
+
+#include "support/parity_report.h"
+#include "support/scene_probe.h"
+#include "support/stress.h"
+
+namespace parhelion {
+namespace {
+
+using test::Parity;
+using test::Stress;
+
+/// Running fractions of the weights, summed in Sum. The last is 1.
+template <typename Sum>
+std::vector<float> runningFractions(const std::vector<float>& weights) {
+    Sum total = 0;
+    for (const float weight : weights) total += weight;
+    std::vector<float> cdf;
+    Sum sum = 0;
+    for (const float weight : weights) cdf.push_back(float((sum += weight) / total));
+    cdf.back() = 1;
+    return cdf;
+}
+
+void expectSameEntries(const std::vector<float>& cdf, std::uint32_t offset, std::uint32_t count) {
+    CompiledScene scene;
+    scene.lightTriangleCdf = cdf;
+    std::vector<float> uniforms = test::stressUniforms(2'000);
+    for (std::uint32_t i = 0; i < std::min(count, 2'000u); ++i) {
+        const float entry = cdf[offset + i];
+        uniforms.insert(uniforms.end(), {std::min(entry, 0x1.fffffep-1f), std::nextafter(entry, 0.0f)});
+    }
+    std::vector<glm::vec4> inputs;
+    for (const float u : uniforms) inputs.emplace_back(glm::uintBitsToFloat(offset), glm::uintBitsToFloat(count), u, 0);
+    const auto outputs = test::SceneProbe(scene).run("parity/distribution.comp", 0, inputs);
+    Parity parity("sampling/distribution", "firstAbove", 0);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const std::uint32_t expected =
+            reference::firstAbove(std::span(cdf).subspan(offset, count), double(uniforms[i]));
+        EXPECT_TRUE(parity.equal(glm::floatBitsToUint(outputs[i].x), expected)) << "u = " << uniforms[i];
+    }
+}
+
+TEST(DistributionParity, FindsTheSameEntryAtAndBetweenTheSteps) {
+    for (const std::uint32_t count : {1u, 2u, 3u, 255u, 256u, 257u}) {
+        std::vector<float> weights(count);
+        Stress stress(count);
+        for (float& weight : weights) weight = stress.word() % 3 == 0 ? 0.0f : stress.magnitude(1e-6f, 1);
+        weights.back() = 1;
+        std::vector<float> cdf(7, 0.5f);  // of a light before
+        const std::vector<float> own = runningFractions<double>(weights);
+        cdf.insert(cdf.end(), own.begin(), own.end());
+        expectSameEntries(cdf, 7, count);
+    }
+}
+
+// H44: a large table. Summed in float, its steps are so far off that whole entries become unreachable.
+TEST(DistributionParity, FindsTheSameEntryOfALargeTableH44) {
+    std::vector<float> weights(1u << 22);
+    Stress stress(10);
+    for (float& weight : weights) weight = stress.between(0, 1);
+    const std::vector<float> exact = runningFractions<double>(weights), naive = runningFractions<float>(weights);
+    expectSameEntries(exact, 0, std::uint32_t(exact.size()));
+    test::ErrorMeter error;
+    for (std::size_t i = 0; i < exact.size(); ++i) error.add(naive[i], exact[i], 1);
+    EXPECT_GT(error.worst(), 2 * (1 << 24) / double(exact.size()));  // steps off by two average entries
+}
+
+}  // namespace
+}  // namespace parhelion

@@ -1,0 +1,27 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "../support/probe.glsl"
+#include "light/light.glsl"
+
+void put(LightSample s) {
+    probeOutput(0u, vec4(s.direction, s.distance));
+    probeOutput(1u, vec4(s.radianceOverPdf, s.pdf));
+    probeOutput(2u, vec4(uintBitsToFloat(s.target), 0.0, 0.0, 0.0));
+}
+
+void probeItem() {
+    loadScene();
+    uint tests = 0u;
+    vec3 position = probeInput(0u).xyz, u = probeInput(1u).xyz;
+    switch (probeFunction) {
+        case 0u:
+            put(sampleLight(position, u, tests));
+            probeOutput(2u, vec4(uintBitsToFloat(uvec2(sampleLight(position, u, tests).target, selectLight(u.x))), 0.0, 0.0));
+            break;
+        case 1u: probeOutput(0u, vec4(oneMinusCosCone(position, probeInput(0u).w))); break;
+        case 2u:  // origin; distance, cosine, light
+            probeOutput(0u, vec4(lightPdf(scene.lights[uint(u.z)], position, u.x, u.y)));
+            break;
+    }
+}

@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include "image/image.h"
+#include "render/renderer.h"
+#include "support/gpu_fixture.h"
+#include "support/render_scene.h"
+#include "support/run_program.h"
+
+// A film depends on the scene, the seed and the samples alone: not on how the work is cut into turns, dispatches, crops,
+// runs and vectors.
+namespace parhelion::test {
+namespace {
+
+constexpr glm::uvec2 kSize{24, 20};
+constexpr std::uint64_t kSamples = 4;
+
+CompiledScene cloudScene(glm::uvec2 size = kSize) { return compileFile(sceneFolder() / "cloud_box.xml", size); }
+
+TEST(Slicing, StepsPerEventChangeNoBit) {
+    const CompiledScene scene = cloudScene();
+    RenderSettings settings = settingsFor(scene, kSamples);
+    const Film plain = renderVulkan(scene, settings);
+    for (const std::uint32_t steps : {1u, 3u, 16u}) {
+        settings.quality.stepsPerEvent = steps;
+        EXPECT_EQ(countDifferentPixels(plain, renderVulkan(scene, settings)), 0u) << steps;
+    }
+    settings.seed = 1;
+    EXPECT_GT(countDifferentPixels(plain, renderVulkan(scene, settings)), 0u);
+}
+
+TEST(Slicing, CropsAreTheSamePixels) {
+    const CompiledScene scene = cloudScene();
+    const Film whole = renderVulkan(scene, settingsFor(scene, kSamples));
+    for (const PixelRect crop : {PixelRect{{8, 8}, {16, 8}}, PixelRect{{5, 3}, {11, 13}}, PixelRect{{23, 19}, {1, 1}}}) {
+        CompiledScene part = scene;
+        part.cropOffset = crop.offset;
+        part.cropSize = crop.size;
+        Film expected = whole;
+        expected.pixels.clear();
+        expected.features.clear();
+        for (unsigned y = crop.offset.y; y < crop.offset.y + crop.size.y; ++y)
+            for (unsigned x = crop.offset.x; x < crop.offset.x + crop.size.x; ++x) {
+                expected.pixels.push_back(whole.pixels[y * kSize.x + x]);
+                expected.features.push_back(whole.features[y * kSize.x + x]);
+            }
+        const Film film = renderVulkan(part, settingsFor(part, kSamples));
+        EXPECT_EQ(countDifferentPixels(film, expected), 0u) << crop.size.x << " x " << crop.size.y;
+        EXPECT_EQ(countDifferentFeatures(film, expected), 0u) << crop.size.x << " x " << crop.size.y;
+    }
+}
+
+Film renderRange(const CompiledScene& scene, std::uint64_t first, std::uint64_t count) {
+    RenderSettings settings = settingsFor(scene, count);
+    settings.firstSample = first;
+    return renderVulkan(scene, settings);
+}
+
+/// Pixels where whole is not a + b. The compensation carries 24 bits beyond the sum's 24; eight additions may cost three
+/// of them, and 2^-40 leaves room while a sample lost or taken twice is off by more than 2^-4.
+std::size_t countUnequalSums(const Film& whole, const Film& a, const Film& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
+        const glm::dvec3 sum = sampleSum(whole.pixels[i]);
+        const glm::dvec3 difference = abs(sum - sampleSum(a.pixels[i]) - sampleSum(b.pixels[i]));
+        count += any(greaterThan(difference, sum * 0x1p-40));
+    }
+    return count;
+}
+
+TEST(Slicing, RunsAddUp) {
+    const CompiledScene scene = cloudScene();
+    const Film whole = renderRange(scene, 0, 8), begin = renderRange(scene, 0, 3), end = renderRange(scene, 3, 5);
+    EXPECT_EQ(countUnequalSums(whole, begin, end), 0u);
+    EXPECT_GT(countUnequalSums(whole, begin, renderRange(scene, 4, 5)), whole.pixels.size() / 2);
+}
+
+// numerics H76: 32 bits of sample index would repeat.
+TEST(Slicing, SampleIndicesHave64Bits) {
+    constexpr std::uint64_t kWrap = std::uint64_t(1) << 32;
+    const CompiledScene scene = cloudScene();
+    const Film first = renderRange(scene, 0, 1), wrapped = renderRange(scene, kWrap, 1);
+    EXPECT_GT(countDifferentPixels(first, wrapped), first.pixels.size() / 2);
+    EXPECT_EQ(countUnequalSums(renderRange(scene, kWrap - 1, 2), renderRange(scene, kWrap - 1, 1), wrapped), 0u);
+}
+
+// Pixels that stop where their paths happen to end would be biased towards short paths: all have the same samples, the
+// ones that a shorter run would have taken.
+TEST(Slicing, FinishingEarlyIsAShorterRun) {
+    const CompiledScene scene = cloudScene();
+    render::Renderer renderer(testDevice(), scene, settingsFor(scene, 1 << 20));
+    for (int dispatch = 0; dispatch < 3; ++dispatch) ASSERT_TRUE(renderer.step());
+    renderer.finishEarly();
+    while (renderer.step()) {
+    }
+    const Film film = renderer.film();
+    ASSERT_GT(film.samples, 0u);
+    ASSERT_LT(film.samples, 1u << 20);
+    EXPECT_EQ(film.counters[shared::kCounterPathsFinished], film.samples * film.pixels.size());
+    EXPECT_EQ(countDifferentPixels(film, renderVulkan(scene, settingsFor(scene, film.samples))), 0u);
+}
+
+TEST(Slicing, VectorWidthsChangeNoBit) {
+    const TemporaryFolder folder;
+    std::vector<Image> images;
+    for (const std::string bits : {"256", "512"}) {
+        const std::string scene = sceneFolder() / "cloud_box.xml", file = bits + ".exr";
+        const ProgramResult result = runProgram(PARHELION_PROGRAM,
+                                                {"render", scene, "-o", file, "--size", "21x18", "--spp", "2",
+                                                 "--vector-bits", bits, "--quiet"},
+                                                folder.path());
+        ASSERT_EQ(result.exitCode, 0) << result.error;
+        images.push_back(readExr(folder.path() / file));
+    }
+    EXPECT_EQ(images[0].channels, images[1].channels);
+}
+
+}  // namespace
+}  // namespace parhelion::test

@@ -1,0 +1,169 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "reference/integrator/camera.h"
+#include "reference/sampling/sampler.h"
+#include "shared/path_types.h"
+#include "support/goodness.h"
+#include "unit/compile_fixtures.h"
+
+// The counter-based generator and what is drawn from it directly: exponentials and film positions.
+namespace parhelion::reference {
+namespace {
+
+using test::CellTest;
+using test::partOf;
+
+double significance() { return sidak(test::kFamilySignificance, 60); }
+
+/// The draws of sample after sample of pixel after pixel, as a render takes them.
+glm::uvec4 wordsOf(std::uint64_t i, std::uint32_t purpose) {
+    return draw(pathKey(std::uint32_t(i / 64), std::uint32_t(i % 64), 0, 0), std::uint32_t(i % 3), purpose);
+}
+
+TEST(RandomWords, AreUniformAlsoInPairs) {
+    for (int first = 0; first < 4; ++first) {
+        CellTest cells(64, significance());
+        for (std::uint64_t i = 0, n = cells.samplesNeeded(); i < n; ++i) {
+            const glm::uvec4 words = wordsOf(i, shared::kDrawScatter);
+            const auto u = double(toUniform<float>(words[first])), v = double(toUniform<float>(words[(first + 1) % 4]));
+            cells.add(partOf(u, 8) * 8 + partOf(v, 8));
+        }
+        cells.expectFit("words " + std::to_string(first));
+    }
+}
+
+TEST(RandomWords, LowBitsAreUniform) {
+    // What the exponentials and the density corners are completed from.
+    CellTest spare(64, significance()), corner(64, significance());
+    for (std::uint64_t i = 0, n = spare.samplesNeeded(); i < n; ++i) {
+        const glm::uvec4 words = wordsOf(i, shared::kDrawFlight);
+        spare.add(spareBits(words.x, words.y, words.w) >> 18);
+        corner.add(partOf(cornerOffsets<double>(words).z, 64));
+    }
+    spare.expectFit("spare bits");
+    corner.expectFit("corner z");
+}
+
+using Uniform = std::function<double(std::uint32_t pixel, std::uint32_t sample, std::uint32_t vertex, int word)>;
+
+double uniformOf(std::uint32_t pixel, std::uint32_t sample, std::uint32_t vertex, int word) {
+    return toUniform<double>(draw(pathKey(pixel, sample, 0, 0), vertex, shared::kDrawScatter)[word]);
+}
+
+/// Correlation of numbers a step apart, in standard errors.
+double correlation(const Uniform& uniform, glm::uvec4 step) {
+    constexpr int kCount = 200'000;
+    double sum = 0;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        const std::uint32_t pixel = i % 5000, sample = i / 5000;
+        sum += 12 * (uniform(pixel, sample, 1, 0) - 0.5) *
+               (uniform(pixel + step.x, sample + step.y, 1 + step.z, int(step.w)) - 0.5);
+    }
+    // The product of two independent standardised uniforms has mean 0 and deviation 1.
+    return sum / std::sqrt(double(kCount));
+}
+
+TEST(RandomWords, NeighboursAreUncorrelated) {  // H75
+    const double limit = twoSidedThreshold(significance());
+    for (const std::uint32_t pixel : {0u, 1u, 2u, 512u})
+        for (const std::uint32_t sample : {0u, 1u, 2u})
+            for (const std::uint32_t vertex : {0u, 1u})
+                for (const std::uint32_t word : {0u, 1u}) {
+                    if (pixel + sample + vertex + word == 0) continue;
+                    EXPECT_LT(std::abs(correlation(uniformOf, {pixel, sample, vertex, word})), limit)
+                        << pixel << ' ' << sample << ' ' << vertex << ' ' << word;
+                }
+    // The seeded defect: streams keyed by pixel + sample share their numbers with the next pixel.
+    const Uniform overlapping = [](std::uint32_t pixel, std::uint32_t sample, std::uint32_t vertex, int word) {
+        return uniformOf(pixel + sample, 0, vertex, word);
+    };
+    EXPECT_GT(correlation(overlapping, {1, 0xffffffffu, 0, 0}), limit);
+}
+
+TEST(RandomWords, VarianceOfTheMeanFallsAsOneOverN) {  // H75
+    constexpr int kPixels = 4000;
+    const double limit = twoSidedThreshold(significance());
+    for (const std::uint32_t count : {1u, 4u, 16u, 64u, 256u, 1024u}) {
+        RunningMoments means;
+        for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+            double sum = 0;
+            for (std::uint32_t sample = 0; sample < count; ++sample) sum += uniformOf(pixel, sample, 2, 1);
+            means.add(sum / count);
+        }
+        // A variance from k values has relative deviation sqrt(2 / (k - 1)) when they are normal; less when uniform.
+        const double ratio = means.variance() * 12 * count;
+        EXPECT_LT(std::abs(ratio - 1), limit * std::sqrt(2.0 / (kPixels - 1))) << count;
+    }
+}
+
+TEST(Exponentials, FollowTheirDistribution) {
+    const auto fit = [](double scale) {
+        CellTest cells(64, significance());
+        for (std::uint64_t i = 0, n = cells.samplesNeeded(); i < n; ++i) {
+            const glm::uvec4 words = wordsOf(i, shared::kDrawFlight);
+            cells.add(partOf(-std::expm1(-scale * double(exponential<float>(words.z, words.w >> 8))), 64));
+        }
+        return cells;
+    };
+    fit(1).expectFit("exponential");
+    fit(0.98).expectMisfit("rate off by 2 %");
+}
+
+TEST(Exponentials, ReachBeyondTheGridOf24Bits) {  // H33
+    // Given that the upper 24 bits are all ones, the rest of the flight is again exponential, after 24 ln 2.
+    CellTest cells(32, significance());
+    float longest = 0;
+    for (std::uint64_t i = 0, n = cells.samplesNeeded(); i < n; ++i) {
+        const float e = exponential<float>(0xffffffffu, wordsOf(i, 7).x >> 8);
+        longest = std::max(longest, e);
+        cells.add(partOf(-std::expm1(24 * std::log(2.0) - double(e)), 32));
+    }
+    cells.expectFit("tail");
+    EXPECT_GT(longest, 28.0f);
+    // The naive form ends at 24 ln 2, and all that lies beyond is lost.
+    EXPECT_LT(-std::log(1.0 - double(toUniform<float>(0xffffffffu))), 16.64);
+}
+
+TEST(FilmPositions, FollowTheReconstructionFilter) {
+    using fixtures::scene;
+    const auto fit = [](const std::vector<float>& table, const std::function<double(double)>& cdf) {
+        // 32 cells end on entries of the table, between which it is linear on purpose.
+        CellTest cells(32, significance());
+        test::IndependentNumbers numbers(6);
+        for (std::uint64_t i = cells.samplesNeeded(); i > 0; --i) {
+            const double offset = filterOffset<double>(table, numbers.uniform<double>()) - 0.5;
+            cells.add(partOf(cdf(offset), 32));
+        }
+        return cells;
+    };
+    SceneDescription tent = scene(), gaussian = scene();
+    tent.film.filter = ReconstructionFilter::Tent;
+    tent.film.filterRadius = 1.5;
+    gaussian.film.filter = ReconstructionFilter::Gaussian;
+    gaussian.film.filterStddev = 0.5;
+    const auto tentCdf = [](double x) {
+        const double y = 1 - std::min(1.0, std::abs(x) / 1.5), half = y * y / 2;
+        return x < 0 ? half : 1 - half;
+    };
+    // exp(-x^2 / 2 s^2) - exp(-8), cut at 4 s.
+    const auto gaussianCdf = [](double s) {
+        return [s](double x) {
+            const auto mass = [s](double y) {
+                return s * std::sqrt(std::acos(-1.0) / 2) * std::erf(y / (s * std::sqrt(2.0))) - std::exp(-8.0) * y;
+            };
+            return 0.5 + 0.5 * mass(std::clamp(x, -4 * s, 4 * s)) / mass(4 * s);
+        };
+    };
+    fit(compileScene(tent).filterTable, tentCdf).expectFit("tent");
+    const std::vector<float> table = compileScene(gaussian).filterTable;
+    fit(table, gaussianCdf(0.5)).expectFit("gaussian");
+    fit(table, gaussianCdf(0.98 * 0.5)).expectMisfit("deviation off by 2 %");
+    fit({}, [](double x) { return x + 0.5; }).expectFit("box");
+}
+
+}  // namespace
+}  // namespace parhelion::reference

@@ -1,0 +1,42 @@
+#include <gtest/gtest.h>
+
+#include "support/furnace.h"
+
+// What absorbs nothing in a uniform sky looks like the sky: L = 1 whatever shape, density and phase function
+// (numerics H34). tests/nightly/white_furnace_product_test.cpp has larger crops and the thick ones of the z-tests.
+namespace parhelion {
+namespace {
+
+using namespace test;
+
+class WhiteFurnace : public testing::TestWithParam<Backend> {};
+
+TEST_P(WhiteFurnace, HomogeneousMediaAreWhiteInEveryPixel) {
+    for (const double tau : {0.1, 10.0, 1000.0})
+        for (const double g : {-0.9, 0.0, 0.9}) expectWhite(GetParam(), {.tau = tau, .g = g, .size = 4});
+}
+
+TEST_P(WhiteFurnace, GridsAreWhiteInEveryPixel) {
+    for (const double tau : {0.1, 10.0})
+        for (const double g : {-0.9, 0.0, 0.9})
+            expectWhite(GetParam(), {.tau = tau, .g = g, .isGrid = true, .size = 8});
+}
+
+TEST_P(WhiteFurnace, ThickGridsAreWhiteInEveryPixel) {
+    for (const double g : {-0.9, 0.0, 0.9}) expectWhite(GetParam(), {.tau = 1000, .g = g, .isGrid = true, .size = 4});
+}
+
+// Sampling the sky at every scattering makes each sample vary; the weights of both techniques must add up to 1.
+// Samples: what the variance asks for, twice over.
+TEST_P(WhiteFurnace, SkySamplingLeavesTheMeanAtOne) {
+    for (const bool isGrid : {false, true})
+        for (const double g : {-0.9, 0.0, 0.9})
+            expectWhiteOnAverage(GetParam(), {.tau = 0.1, .g = g, .isGrid = isGrid, .sampleSky = true, .size = 32},
+                                 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, WhiteFurnace, testing::ValuesIn(kBackends),
+                         [](const auto& info) { return name(info.param); });
+
+}  // namespace
+}  // namespace parhelion
