@@ -43,7 +43,7 @@ protected:
     std::vector<Image> see(const std::filesystem::path& volumeFile, std::uint32_t seed) {
         const std::string text = sceneText(volumeFile.string(), extent_, extinction_);
         const CompiledScene scene = compileScene(readScene(folder_.write("scene.xml", text)));
-        return renderSeeds(Backend::Vulkan, scene, 32, kSeeds, seed);
+        return renderSeeds(Backend::Vulkan, scene, 16, kSeeds, seed);
     }
 
     void measure(const Volume& volume) {

@@ -25,7 +25,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
 }
 
 std::string mediumText(const SlabRow& slab, const SlabView& view, const TemporaryFolder& folder) {
-    const double sigma = 1.01 * slab.tau / view.thickness;
+    const double sigma = slab.tau / view.thickness;
     std::string extinction = fmt::format(R"(<float name="sigma_t" value="{}"/>)", sigma);
     if (view.constantGrid) {
         Volume ones;

@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""Time, variance and efficiency of Parhelion and of Mitsuba 3 on the same scene files, interleaved.
+
+    tools/mitsuba/benchmark.py [--program build/parhelion] [--rounds 5] SCENE.xml ...
+
+Needs `pip install mitsuba numpy` and libllvm19 (DRJIT_LIBLLVM_PATH). Every round runs each renderer
+once; times are medians over rounds. A pass is one sample per pixel; its time is the difference of
+two renders with different sample counts, so that start-up cancels. Variance is that of one sample,
+mean over pixels and channels; "trimmed" leaves out the 0.1 % of pixels with the largest variance.
+Efficiency is 1 / (variance * time), relative to Mitsuba. Scenes that Mitsuba cannot read (.grid
+volumes) get no row for it, and efficiencies relative to the float reference.
+"""
+import argparse
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+os.environ.setdefault("DRJIT_LIBLLVM_PATH", "/usr/lib/x86_64-linux-gnu/libLLVM-19.so")
+import mitsuba as mi  # noqa: E402
+import numpy as np  # noqa: E402
+
+mi.set_variant("llvm_ad_rgb")
+TRIM = 0.001
+PASSES = {"vulkan": (8, 40), "reference": (2, 10)}
+MITSUBA_PASSES = 4
+
+
+def mean_variances(variance):
+    """Mean over pixels and channels, and the same without the noisiest 0.1 % of pixels."""
+    pixels = np.sort(variance.mean(-1).ravel())
+    return pixels.mean(), pixels[: int(len(pixels) * (1 - TRIM))].mean()
+
+
+class Parhelion:
+    def __init__(self, name, program, scene, size, options):
+        self.name, self.scene, self.times = name, scene, []
+        self.command = [program, "render", scene, "--size", f"{size}x{size}", "--feature-spp", "1", "--json", "--quiet"]
+        self.command += options
+        self.passes = PASSES["reference" if "reference" in options else "vulkan"]
+        self.variances = None
+
+    def render(self, samples, out, seed):
+        run = subprocess.run(self.command + ["--spp", str(samples), "--seed", str(seed), "-o", out],
+                             capture_output=True, text=True, check=True)
+        return json.loads(run.stdout)["seconds"]
+
+    def round(self, seed):
+        few, many = self.passes
+        with tempfile.TemporaryDirectory() as folder:
+            out = str(pathlib.Path(folder) / "a.exr")
+            start = self.render(few, out, seed)
+            end = self.render(many, out, seed)
+            self.times.append((end - start) / (many - few))
+            if self.variances is None:
+                bitmap = mi.Bitmap(out)
+                names = [field.name for field in bitmap.struct_()]
+                image = np.array(bitmap)
+                self.variances = mean_variances(image[..., [names.index(f"variance.{c}") for c in "RGB"]] * many)
+
+
+class Mitsuba:
+    def __init__(self, scene, size):
+        self.name, self.times, self.images = "Mitsuba 3.9.1 llvm_ad_rgb", [], []
+        self.scene = mi.load_file(scene, size=size)
+        self.render(0)
+
+    def render(self, seed):
+        start = time.perf_counter()
+        image = np.array(mi.render(self.scene, spp=MITSUBA_PASSES, seed=seed))
+        return time.perf_counter() - start, image
+
+    def round(self, seed):
+        for repeat in range(3):
+            seconds, image = self.render(1 + 3 * seed + repeat)
+            self.images.append(image)
+            self.times.append(seconds / MITSUBA_PASSES)
+
+    @property
+    def variances(self):
+        return mean_variances(np.var(self.images, axis=0, ddof=1) * MITSUBA_PASSES)
+
+
+def benchmark(scene, program, rounds, size):
+    contenders = [Parhelion("Vulkan, 16 lanes", program, scene, size, ["--vector-bits", "512"]),
+                  Parhelion("Vulkan, 8 lanes", program, scene, size, ["--vector-bits", "256"]),
+                  Parhelion("float reference", program, scene, size, ["--backend", "reference"])]
+    try:
+        contenders.append(Mitsuba(scene, size))
+    except RuntimeError as error:
+        print(f"{scene}: not read by Mitsuba: {str(error).splitlines()[0]}", file=sys.stderr)
+    for seed in range(rounds):
+        for contender in contenders:
+            contender.round(seed)
+    rows = [(c.name, 1e3 * statistics.median(c.times), *c.variances) for c in contenders]
+    unit = rows[-1]
+    for name, ms, full, trimmed in rows:
+        print(f"| {pathlib.Path(scene).stem} | {name} | {ms:.1f} | {full:.3g} | {trimmed:.3g} | "
+              f"{unit[1] * unit[2] / (ms * full):.1f} | {unit[1] * unit[3] / (ms * trimmed):.1f} |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="+")
+    parser.add_argument("--program", default="build/parhelion")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--size", type=int, default=256)
+    arguments = parser.parse_args()
+    print("| scene | renderer | ms a pass | variance | trimmed | efficiency | trimmed |\n|---|---|---|---|---|---|---|")
+    for scene in arguments.scenes:
+        benchmark(scene, arguments.program, arguments.rounds, arguments.size)
+
+
+if __name__ == "__main__":
+    main()
