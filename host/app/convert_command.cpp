@@ -17,8 +17,8 @@ namespace {
 
 std::string describe(const Volume& volume) {
     const glm::dvec3 low = volume.boundsMin, high = volume.boundsMax;
-    const std::string bounds =
-        fmt::format("bounds {:.6g}, {:.6g}, {:.6g} to {:.6g}, {:.6g}, {:.6g}", low.x, low.y, low.z, high.x, high.y, high.z);
+    const std::string bounds = fmt::format("bounds {:.6g}, {:.6g}, {:.6g} to {:.6g}, {:.6g}, {:.6g}", low.x, low.y,
+                                           low.z, high.x, high.y, high.z);
     if (volume.channels != 1)
         return fmt::format("{} voxels of {} channels, {}, {}", formatSize(volume.color.resolution), volume.channels,
                            formatBytes(static_cast<double>(volume.color.values.size() * sizeof(float))), bounds);

@@ -6,8 +6,7 @@
 namespace parhelion::render {
 
 template <typename T>
-void DeviceScene::addTexels(gpu::Device& device, std::uint32_t binding, const std::vector<T>& values,
-                            VkFormat format) {
+void DeviceScene::addTexels(gpu::Device& device, std::uint32_t binding, const std::vector<T>& values, VkFormat format) {
     // A binding that the scene leaves empty still needs a texel to point at.
     gpu::Buffer buffer = device.createBuffer(std::max<std::size_t>(values.size() * sizeof(T), 16));
     buffer.write(0, std::as_bytes(std::span(values)));

@@ -8,7 +8,7 @@
 namespace parhelion::render {
 namespace {
 
-constexpr std::uint32_t kGroup = 64;  // local_size_x of the kernels
+constexpr std::uint32_t kGroup = 64;              // local_size_x of the kernels
 constexpr std::uint32_t kMaximumCrossings = 256;  // medium boundaries in front of the first opaque surface
 
 std::uint32_t groupsCovering(std::uint32_t lanes) { return (lanes + kGroup - 1) / kGroup; }
@@ -57,11 +57,17 @@ std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const Comp
     constexpr std::uint32_t kLanes = 1u << 18;
     for (std::uint32_t sample = 0; sample < settings.featureSamples; ++sample)
         for (std::uint32_t first = 0; first < pixels; first += kLanes) {
-            const shared::PathArguments arguments{.filmSize = scene.filmSize, .cropOffset = scene.cropOffset,
-                                                  .cropSize = scene.cropSize, .firstPixel = first,
-                                                  .laneCount = std::min(kLanes, pixels - first), .sampleLow = sample,
-                                                  .sampleHigh = 0, .sampleCount = 1, .seed = settings.seed,
-                                                  .loopBudget = kMaximumCrossings, .restart = 0};
+            const shared::PathArguments arguments{.filmSize = scene.filmSize,
+                                                  .cropOffset = scene.cropOffset,
+                                                  .cropSize = scene.cropSize,
+                                                  .firstPixel = first,
+                                                  .laneCount = std::min(kLanes, pixels - first),
+                                                  .sampleLow = sample,
+                                                  .sampleHigh = 0,
+                                                  .sampleCount = 1,
+                                                  .seed = settings.seed,
+                                                  .loopBudget = kMaximumCrossings,
+                                                  .restart = 0};
             device.submit([&](VkCommandBuffer commands) {
                 pipeline.record(commands, std::as_bytes(std::span(&arguments, 1)), groupsCovering(arguments.laneCount));
             });

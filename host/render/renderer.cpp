@@ -1,9 +1,9 @@
 #include "render/renderer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "base/error.h"
 #include "render/path_trace_pass.h"
@@ -12,8 +12,8 @@
 namespace parhelion::render {
 namespace {
 
-constexpr double kTargetMs = 150;       // a dispatch: short enough for progress and Ctrl-C
-constexpr double kRunAheadMs = 2000;    // how far fast pixels may run ahead of slow ones: the wait after Ctrl-C
+constexpr double kTargetMs = 150;     // a dispatch: short enough for progress and Ctrl-C
+constexpr double kRunAheadMs = 2000;  // how far fast pixels may run ahead of slow ones: the wait after Ctrl-C
 constexpr std::uint32_t kMinimumRunAhead = 16;
 constexpr std::uint32_t kMinimumBudget = 6000;
 
@@ -33,8 +33,12 @@ std::vector<Batch> batchesOf(glm::uvec2 size, std::uint32_t lanes) {
 
 struct Renderer::State {
     State(gpu::Device& device_, const CompiledScene& scene_, const RenderSettings& settings_)
-        : device(device_), scene(scene_), settings(settings_), constants(specialise(scene_, settings_.effects, settings_.quality)),
-          deviceScene(device_, scene_), batches(batchesOf(scene_.cropSize, maximumLanes(device_))),
+        : device(device_),
+          scene(scene_),
+          settings(settings_),
+          constants(specialise(scene_, settings_.effects, settings_.quality)),
+          deviceScene(device_, scene_),
+          batches(batchesOf(scene_.cropSize, maximumLanes(device_))),
           pass(device_, scene_, deviceScene, constants, batches.front().laneCount) {}
 
     gpu::Device& device;
@@ -46,10 +50,10 @@ struct Renderer::State {
     PathTracePass pass;
 
     std::array<std::uint64_t, shared::kCounterCount> counters{};
-    std::uint64_t windowStart = 0;      // samples per pixel that earlier windows finished
-    std::uint32_t windowSize = 0;       // samples per pixel of this one; 0: to be begun
+    std::uint64_t windowStart = 0;  // samples per pixel that earlier windows finished
+    std::uint32_t windowSize = 0;   // samples per pixel of this one; 0: to be begun
     std::size_t batch = 0;
-    std::uint32_t limit = 0;            // samples that lanes of the batch may begin
+    std::uint32_t limit = 0;  // samples that lanes of the batch may begin
     bool restart = true;
     bool stopping = false;
     std::uint32_t loopBudget = 512;
@@ -90,12 +94,13 @@ void Renderer::State::checkCounters() {
         throw RuntimeFailure(fmt::format("the device cut {} shader loops short: the image would be wrong",
                                          now[shared::kCounterLoopTruncated]));
     if (now[shared::kCounterBvhOverflow] != 0)
-        throw RuntimeFailure(fmt::format("{} rays met more BVH nodes than a dispatch may visit",
-                                         now[shared::kCounterBvhOverflow]));
+        throw RuntimeFailure(
+            fmt::format("{} rays met more BVH nodes than a dispatch may visit", now[shared::kCounterBvhOverflow]));
     for (std::size_t i = 0; i < counters.size(); ++i)
         if (i != shared::kCounterActiveLanes) counters[i] += now[i];
     // A lane may spend many dispatches on one path, but some lane takes a step in every dispatch.
-    const bool idle = now[shared::kCounterPathsFinished] + now[shared::kCounterSteps] + now[shared::kCounterVertices] == 0;
+    const bool idle =
+        now[shared::kCounterPathsFinished] + now[shared::kCounterSteps] + now[shared::kCounterVertices] == 0;
     idleDispatches = idle ? idleDispatches + 1 : 0;
     if (idleDispatches > 64) throw RuntimeFailure("the device makes no progress: 64 dispatches without a step");
 }
@@ -120,11 +125,17 @@ bool Renderer::step() {
     }
     const Batch& batch = s.batches[s.batch];
     const std::uint64_t first = s.settings.firstSample + s.windowStart;
-    s.lastMs = s.pass.run(batch, {.filmSize = s.scene.filmSize, .cropOffset = s.scene.cropOffset,
-                                  .cropSize = s.scene.cropSize, .firstPixel = batch.firstPixel,
-                                  .laneCount = batch.laneCount, .sampleLow = static_cast<std::uint32_t>(first),
-                                  .sampleHigh = static_cast<std::uint32_t>(first >> 32), .sampleCount = s.limit,
-                                  .seed = s.settings.seed, .loopBudget = s.loopBudget, .restart = s.restart});
+    s.lastMs = s.pass.run(batch, {.filmSize = s.scene.filmSize,
+                                  .cropOffset = s.scene.cropOffset,
+                                  .cropSize = s.scene.cropSize,
+                                  .firstPixel = batch.firstPixel,
+                                  .laneCount = batch.laneCount,
+                                  .sampleLow = static_cast<std::uint32_t>(first),
+                                  .sampleHigh = static_cast<std::uint32_t>(first >> 32),
+                                  .sampleCount = s.limit,
+                                  .seed = s.settings.seed,
+                                  .loopBudget = s.loopBudget,
+                                  .restart = s.restart});
     s.restart = false;
     s.msSpent += s.lastMs;
     s.checkCounters();
@@ -156,7 +167,10 @@ Progress Renderer::progress() const {
 
 Film Renderer::film() {
     State& s = *state_;
-    Film film{.filmSize = s.scene.filmSize, .crop = {s.scene.cropOffset, s.scene.cropSize}, .samples = s.windowStart};
+    Film film;
+    film.filmSize = s.scene.filmSize;
+    film.crop = {s.scene.cropOffset, s.scene.cropSize};
+    film.samples = s.windowStart;
     const auto pixels = s.pass.film();
     film.pixels.assign(pixels.begin(), pixels.end());
     film.counters = s.counters;

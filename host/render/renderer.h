@@ -11,9 +11,9 @@ namespace parhelion::render {
 
 /// How far a render has come.
 struct Progress {
-    double samplesDone = 0;      ///< over all pixels
+    double samplesDone = 0;  ///< over all pixels
     double samplesTotal = 0;
-    double dispatchMs = 0;       ///< device time of the last dispatch
+    double dispatchMs = 0;  ///< device time of the last dispatch
 };
 
 /// Renders a CompiledScene on a Vulkan device, a dispatch at a time.

@@ -45,50 +45,70 @@ void finishPath(inout Path p, inout FilmPixel pixel, inout uvec3 anomalies) {
     ++p.sampleIndex;
 }
 
-// Shader only: the twin's nested loops are tracePath.
-void tracePixel(uint lane) {
-    loadScene();
-    uvec2 pixel = arguments.cropOffset + lanePixel(lane);
-    uvec2 inCrop = pixel - arguments.cropOffset;
-    uint filmIndex = inCrop.y * arguments.cropSize.x + inCrop.x;
-    uint pixelIndex = pixel.y * arguments.filmSize.x + pixel.x;
-    FilmPixel sums = film[filmIndex];
-    Counts counts = Counts(0u, 0u, 0u, 0u, 0u, true);
-    uvec3 anomalies = uvec3(0u);
-    Path p;
-    bool restart = arguments.restart != 0u;
-    if (!restart) loadPath(lane, arguments.laneCount, p);
-    if (restart) p.sampleIndex = 0u;
-    keyPath(p, pixelIndex, arguments);
-    uint next = restart ? kBegin : kContinue;
-    while (p.sampleIndex < arguments.sampleCount && counts.tests < arguments.loopBudget) {
-        DirectLight light = DirectLight(vec3(0.0), vec3(0.0, 0.0, 1.0), kInfinity, kNone, 1.0);
-        uvec2 shadowExponential = uvec2(0u);
-        if (hasMedia && next == kContinue) trackSegment(p, counts);
-        if (next == kContinue) next = handleEvent(p, light, shadowExponential, counts);
-        if (next == kFinish) finishPath(p, sums, anomalies);
-        if (next == kFinish || next == kBegin) {
-            startPath(p, pixelIndex, pixel, arguments);
-            next = kFlight;
-        }
-        if (next == kFlight || next == kShadow) startRay(p, next == kShadow, light, shadowExponential);
-        startSegment(p, next != kContinue, counts);
-        next = kContinue;
-        ++counts.tests;
+// Shader only: what a lane carries through its loop.
+struct Lane {
+    Path path;
+    FilmPixel film;
+    Counts counts;
+    uvec3 anomalies;   // samples, not finite, negative
+    uvec2 pixel;
+    uint pixelIndex;
+};
+
+// Shader only: one turn: track, handle an event, find the next segment.
+void turn(inout Lane lane, uint next) {
+    DirectLight light = DirectLight(vec3(0.0), vec3(0.0, 0.0, 1.0), kInfinity, kNone, 1.0);
+    uvec2 shadowExponential = uvec2(0u);
+    if (hasMedia && next == kContinue) trackSegment(lane.path, lane.counts);
+    if (next == kContinue) next = handleEvent(lane.path, light, shadowExponential, lane.counts);
+    if (next == kFinish) finishPath(lane.path, lane.film, lane.anomalies);
+    if (next == kFinish || next == kBegin) {
+        startPath(lane.path, lane.pixelIndex, lane.pixel, arguments);
+        next = kFlight;
     }
-    film[filmIndex] = sums;
-    bool unfinished = p.sampleIndex < arguments.sampleCount;
-    savePath(lane, arguments.laneCount, p);
-    count(kCounterPathsFinished, anomalies.x);
-    count(kCounterNonFinite, anomalies.y);
-    count(kCounterNegative, anomalies.z);
-    count(kCounterMajorantViolations, counts.violations);
-    count(kCounterBvhOverflow, counts.traversalsOk ? 0u : 1u);
-    count(kCounterLoopTruncated, unfinished && counts.tests < arguments.loopBudget ? 1u : 0u);
-    count(kCounterSteps, counts.steps);
-    count(kCounterCollisions, counts.collisions);
-    count(kCounterVertices, counts.vertices);
+    if (next == kFlight || next == kShadow) startRay(lane.path, next == kShadow, light, shadowExponential);
+    startSegment(lane.path, next != kContinue, lane.counts);
+    ++lane.counts.tests;
+}
+
+// Shader only: adds up what the lane counted.
+void report(Lane lane) {
+    bool unfinished = lane.path.sampleIndex < arguments.sampleCount;
+    count(kCounterPathsFinished, lane.anomalies.x);
+    count(kCounterNonFinite, lane.anomalies.y);
+    count(kCounterNegative, lane.anomalies.z);
+    count(kCounterMajorantViolations, lane.counts.violations);
+    count(kCounterBvhOverflow, lane.counts.traversalsOk ? 0u : 1u);
+    count(kCounterLoopTruncated, unfinished && lane.counts.tests < arguments.loopBudget ? 1u : 0u);
+    count(kCounterSteps, lane.counts.steps);
+    count(kCounterCollisions, lane.counts.collisions);
+    count(kCounterVertices, lane.counts.vertices);
     count(kCounterActiveLanes, unfinished ? 1u : 0u);
+}
+
+// Shader only: the twin's nested loops are tracePath.
+void tracePixel(uint laneId) {
+    loadScene();
+    Lane lane;
+    uvec2 inCrop = lanePixel(laneId);
+    uint filmIndex = inCrop.y * arguments.cropSize.x + inCrop.x;
+    lane.pixel = arguments.cropOffset + inCrop;
+    lane.pixelIndex = lane.pixel.y * arguments.filmSize.x + lane.pixel.x;
+    lane.film = film[filmIndex];
+    lane.counts = Counts(0u, 0u, 0u, 0u, 0u, true);
+    lane.anomalies = uvec3(0u);
+    bool restart = arguments.restart != 0u;
+    if (!restart) loadPath(laneId, arguments.laneCount, lane.path);
+    if (restart) lane.path.sampleIndex = 0u;
+    keyPath(lane.path, lane.pixelIndex, arguments);
+    uint next = restart ? kBegin : kContinue;
+    while (lane.path.sampleIndex < arguments.sampleCount && lane.counts.tests < arguments.loopBudget) {
+        turn(lane, next);
+        next = kContinue;
+    }
+    film[filmIndex] = lane.film;
+    savePath(laneId, arguments.laneCount, lane.path);
+    report(lane);
 }
 
 #endif

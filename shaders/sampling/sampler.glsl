@@ -36,7 +36,11 @@ uint spareBits(uint x, uint y, uint z) { return (x & 255u) << 16u | (y & 255u) <
 // -log of a uniform number of 48 bits, in (0, 33.3]: the first 24 alone would end flights at 16.6.
 float exponential(uint high, uint low24) {
     float rest = (float(0xffffffu - low24) + 0.5) * 5.9604644775390625e-8;  // never 0
-    return -logPositive((float(0xffffffu - (high >> 8u)) + rest) * 5.9604644775390625e-8);
+    float x = (float(high >> 8u) + (float(low24) + 0.5) * 5.9604644775390625e-8) * 5.9604644775390625e-8;
+    // -log(1 - x) of a small x by its series, to 2^-31 of itself: 1 - x has no digits left for it (H13).
+    float series = x * (1.0 + x * (0.5 + x * 0.33333333));
+    float tail = -logPositive((float(0xffffffu - (high >> 8u)) + rest) * 5.9604644775390625e-8);
+    return x < 0.0009765625 ? series : tail;
 }
 
 // Three 16-bit uniforms for a stochastic grid corner out of a tracking draw.

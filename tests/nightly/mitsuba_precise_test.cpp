@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(
                         MitsubaReference{"cornell_cloud", "../shared/benchmark/cornell_cloud.xml", 768, 0.003},
                         MitsubaReference{"fog_small_light", "../shared/benchmark/fog_small_light.xml", 6144, 0.01},
                         MitsubaReference{"furnace", "../shared/benchmark/furnace.xml", 64, 0.003},
-                        MitsubaReference{"hetero_sigmat", "tests/references/hetero_sigmat_cut.xml", 512, 0.003},
+                        MitsubaReference{"hetero_sigmat", "tests/references/hetero_sigmat.xml", 512, 0.003},
                         MitsubaReference{"homo_null", "tests/references/homo_null.xml", 512, 0.003}),
         testing::ValuesIn(kBackends)),
     [](const auto& info) { return std::get<0>(info.param).name + "_" + name(std::get<1>(info.param)); });

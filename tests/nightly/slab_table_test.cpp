@@ -35,18 +35,17 @@ TEST_P(SlabTable, HoldsTo2PerMille) {
     scores.expectNoCommonBias(0.002, "all rows");
 }
 
+std::string nameOf(const testing::TestParamInfo<View>& info) {
+    const auto [backend, thickness, mu, litFromAbove] = info.param;
+    const char* scale = thickness < 1 ? "Thin" : thickness > 1 ? "Thick" : "Unit";
+    return fmt::format("{}{}{}{}", name(backend), scale, mu == 1 ? "Normal" : "Slanted",
+                       litFromAbove ? "Reflected" : "Transmitted");
+}
+
 INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, SlabTable,
                          testing::Combine(testing::ValuesIn(kBackends), testing::Values(1e-3, 1.0, 1e3),
                                           testing::Values(1.0, 0.5), testing::Bool()),
-                         [](const auto& info) {
-                             const auto [backend, thickness, mu, litFromAbove] = info.param;
-                             return fmt::format("{}{}{}{}", name(backend),
-                                                thickness < 1   ? "Thin"
-                                                : thickness > 1 ? "Thick"
-                                                                : "Unit",
-                                                mu == 1 ? "Normal" : "Slanted",
-                                                litFromAbove ? "Reflected" : "Transmitted");
-                         });
+                         nameOf);
 
 }  // namespace
 }  // namespace parhelion

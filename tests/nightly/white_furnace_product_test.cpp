@@ -25,16 +25,18 @@ TEST_P(WhiteFurnaceProduct, SkySamplingLeavesTheMeanAtOne) {
     expectWhiteOnAverage(backend, {.tau = 10, .g = g, .isGrid = isGrid, .sampleSky = true, .size = 64}, samples);
 }
 
+std::string nameOf(const testing::TestParamInfo<std::tuple<Backend, bool, double>>& info) {
+    const auto [backend, isGrid, g] = info.param;
+    return std::string(name(backend)) + (isGrid ? "Grid" : "Sphere") +
+           (g < 0   ? "Backward"
+            : g > 0 ? "Forward"
+                    : "Isotropic");
+}
+
 INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, WhiteFurnaceProduct,
                          testing::Combine(testing::ValuesIn(kBackends), testing::Bool(),
                                           testing::Values(-0.9, 0.0, 0.9)),
-                         [](const auto& info) {
-                             const auto [backend, isGrid, g] = info.param;
-                             return std::string(name(backend)) + (isGrid ? "Grid" : "Sphere") +
-                                    (g < 0   ? "Backward"
-                                     : g > 0 ? "Forward"
-                                             : "Isotropic");
-                         });
+                         nameOf);
 
 }  // namespace
 }  // namespace parhelion

@@ -10,8 +10,6 @@
 namespace parhelion {
 namespace {
 
-using test::ErrorMeter;
-using test::kRounding;
 using test::Parity;
 using test::Stress;
 

@@ -23,20 +23,17 @@ void probeItem() {
             probeOutput(3u, vec4(surface.shadingNormal, hit.exits));
             probeOutput(4u, vec4(surface.offset, ok));
             break;
-        case 1u:
-            probeOutput(0u, vec4(boxEntry(probeInput(2u).xyz, probeInput(3u).xyz, a.xyz, finiteInverse(b.xyz), a.w, b.w)));
-            break;
-        case 3u:
-            uvec4 ids = floatBitsToUint(c);
-            Shape shape = shapeAt(ids.x);
-            probeOutput(0u, vec4(shape.reflectance, uintBitsToFloat(shape.flags)));
-            probeOutput(1u, uintBitsToFloat(uvec4(shape.interior, shape.exterior, shape.light, interiorOf(ids.x))));
-            probeOutput(2u, vec4(surrounds(ids.x, ids.y)));
-            break;
+        case 1u: probeOutput(0u, vec4(boxEntry(probeInput(2u).xyz, probeInput(3u).xyz, a.xyz, finiteInverse(b.xyz), a.w, b.w))); break;
         case 2u:
             probeOutput(0u, vec4(boxNormal(scene.boxes[0], a.xyz), 0.0));
             probeOutput(1u, vec4(boxSurface(scene.boxes[0], a.xyz).geometricNormal, 0.0));
             probeOutput(2u, vec4(sphereSurface(scene.spheres[0], a.xyz).geometricNormal, 0.0));
+            break;
+        case 3u:
+            Shape shape = shapeAt(ray.last);
+            probeOutput(0u, vec4(shape.reflectance, uintBitsToFloat(shape.flags)));
+            probeOutput(1u, uintBitsToFloat(uvec4(shape.interior, shape.exterior, shape.light, interiorOf(ray.last))));
+            probeOutput(2u, vec4(surrounds(ray.last, ray.inside)));
             break;
     }
 }

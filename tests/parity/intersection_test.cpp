@@ -65,7 +65,6 @@ struct TestRay {
 struct DeviceHit {
     reference::Hit<double> hit;
     reference::Surface<double> surface;
-    glm::dvec3 offset;
     std::uint32_t inside;
     bool ok;
 };
@@ -88,7 +87,6 @@ std::vector<DeviceHit> hit(const CompiledScene& scene, const std::vector<TestRay
         h.hit.exits = rows[i + 3].w != 0;
         h.surface = {glm::vec3(rows[i + 1]), glm::vec3(rows[i + 2]), glm::vec3(rows[i + 3]), 0};
         h.inside = glm::floatBitsToUint(rows[i + 2].w);
-        h.offset = glm::vec3(rows[i + 4]);
         h.ok = rows[i + 4].w != 0;
         hits.push_back(h);
     }

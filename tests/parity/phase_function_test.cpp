@@ -120,8 +120,8 @@ TEST_F(PhaseFunctionParity, DensityKeepsItsDigitsAtThePeakH5H9) {
     EXPECT_GT(values[1].x, 1000 * values[3].x);  // (1.9 / 0.1)^3
 }
 
-// H6: the density integrates to 1 over the sphere and has the mean cosine g, by Simpson's rule in an angle that
-// spreads the peak: mu as a function of u is the sampler's own, so that the integrand is pdf * dmu/du * 2 pi = 1.
+// H6: the density that the sampler returns is that of its direction; it inverts a distribution function, so that the
+// density then integrates to 1.
 TEST_F(PhaseFunctionParity, DensityOfSampleIsTheDensityOfItsDirectionH6) {
     // Both sides above, and the direction's own rounding, which the peak magnifies by a / (1 - a) at most.
     Parity parity("volume/phase_function", "evalHenyeyGreenstein sampleHenyeyGreenstein", 17 + 30);

@@ -48,9 +48,7 @@ CompiledScene foggyScene() {
 }
 
 /// The cumulus under the sun and a lamp.
-CompiledScene cloudScene() {
-    return compileFile(sceneFolder() / "cloud_box.xml", kSize, {{"extinction", "20"}});
-}
+CompiledScene cloudScene() { return compileFile(sceneFolder() / "cloud_box.xml", kSize, {{"extinction", "20"}}); }
 
 Film renderFilm(const CompiledScene& scene, std::uint64_t samples, std::uint32_t seed = 0,
                 const std::function<void(RenderSettings&)>& change = {}) {
@@ -163,9 +161,9 @@ Film turnChannels(Film film) {
 
 TEST(Metamorphic, TurningTheColoursTurnsTheImage) {
     const CompiledScene grey = foggyScene();
-    EXPECT_EQ(countDifferentPixels(turnChannels(renderFilm(grey, kBitSamples)),
-                                   renderFilm(turnChannels(grey), kBitSamples)),
-              0u);
+    EXPECT_EQ(
+        countDifferentPixels(turnChannels(renderFilm(grey, kBitSamples)), renderFilm(turnChannels(grey), kBitSamples)),
+        0u);
     CompiledScene chromatic = grey;
     chromatic.constants.media[0].sigmaRatio = {1.0f, 0.6f, 0.3f};
     chromatic.effects = analyseEffects(chromatic);
@@ -179,17 +177,17 @@ TEST(Metamorphic, LightsAddUp) {
     const Film both = renderFilm(compiled(rest + lamp + sun), kSamples);
     const Film a = renderFilm(compiled(rest + lamp), kSamples, 1), b = renderFilm(compiled(rest + sun), kSamples, 2);
     EXPECT_TRUE(agree("two lights", both, a + b));
-    EXPECT_FALSE(agree("two lights, one 5 % too bright",
-                       both, a + renderFilm(compiled(rest + fill(kSun, "2.1, 1.58, 1.05")), kSamples, 2)));
+    EXPECT_FALSE(agree("two lights, one 5 % too bright", both,
+                       a + renderFilm(compiled(rest + fill(kSun, "2.1, 1.58, 1.05")), kSamples, 2)));
 }
 
 TEST(Metamorphic, SamplingTheSkyChangesOnlyTheNoise) {
     CompileOptions options;
     options.sampleEveryLight = true;
-    const std::string body = fill(kFloor, "0.7, 0.5, 0.3", 1) + fill(kFog, "1.5", "0.95, 0.9, 0.8", 0.9) +
-                             fill(kSky, "0.3, 0.4, 0.5");
-    EXPECT_TRUE(agree("sky sampled", renderFilm(compiled(body, options), kSamples),
-                      renderFilm(compiled(body), kSamples, 1)));
+    const std::string body =
+        fill(kFloor, "0.7, 0.5, 0.3", 1) + fill(kFog, "1.5", "0.95, 0.9, 0.8", 0.9) + fill(kSky, "0.3, 0.4, 0.5");
+    EXPECT_TRUE(
+        agree("sky sampled", renderFilm(compiled(body, options), kSamples), renderFilm(compiled(body), kSamples, 1)));
 }
 
 TEST(Metamorphic, QualityChangesOnlyTheNoise) {
@@ -219,8 +217,8 @@ TEST(Metamorphic, ABoxOfFogMayBeTwo) {
         </transform><bsdf type="null"/><ref name="interior" id="{}"/></shape>)";
     const std::string lights = fill(kSun, "2, 1.5, 1") + fill(kSky, "0.3, 0.4, 0.5");
     const CompiledScene one = compiled(lights + fill(medium, "a") + fill(box, 1, 0, "a"));
-    const CompiledScene two = compiled(lights + fill(medium, "a") + fill(medium, "b") + fill(box, 0.5, -0.5, "a") +
-                                       fill(box, 0.5, 0.5, "b"));
+    const CompiledScene two =
+        compiled(lights + fill(medium, "a") + fill(medium, "b") + fill(box, 0.5, -0.5, "a") + fill(box, 0.5, 0.5, "b"));
     EXPECT_TRUE(agree("box of fog split in two", renderFilm(one, kSamples), renderFilm(two, kSamples, 1)));
 }
 

@@ -1,13 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "image/image.h"
 #include "render/renderer.h"
 #include "support/gpu_fixture.h"
 #include "support/render_scene.h"
 #include "support/run_program.h"
 
-// A film depends on the scene, the seed and the samples alone: not on how the work is cut into turns, dispatches, crops,
-// runs and vectors.
+// A film depends on the scene, the seed and the samples alone: not on how the work is cut into turns, dispatches,
+// crops, runs and vectors.
 namespace parhelion::test {
 namespace {
 
@@ -31,7 +33,8 @@ TEST(Slicing, StepsPerEventChangeNoBit) {
 TEST(Slicing, CropsAreTheSamePixels) {
     const CompiledScene scene = cloudScene();
     const Film whole = renderVulkan(scene, settingsFor(scene, kSamples));
-    for (const PixelRect crop : {PixelRect{{8, 8}, {16, 8}}, PixelRect{{5, 3}, {11, 13}}, PixelRect{{23, 19}, {1, 1}}}) {
+    for (const PixelRect crop :
+         {PixelRect{{8, 8}, {16, 8}}, PixelRect{{5, 3}, {11, 13}}, PixelRect{{23, 19}, {1, 1}}}) {
         CompiledScene part = scene;
         part.cropOffset = crop.offset;
         part.cropSize = crop.size;
@@ -55,14 +58,14 @@ Film renderRange(const CompiledScene& scene, std::uint64_t first, std::uint64_t 
     return renderVulkan(scene, settings);
 }
 
-/// Pixels where whole is not a + b. The compensation carries 24 bits beyond the sum's 24; eight additions may cost three
-/// of them, and 2^-40 leaves room while a sample lost or taken twice is off by more than 2^-4.
+/// Pixels where whole is not a + b. Kahan's sums are good to 2 * 2^-24 of the sum of what they add: for all three films
+/// together 2^-22 of the whole. Most samples, lost or taken twice, weigh far more.
 std::size_t countUnequalSums(const Film& whole, const Film& a, const Film& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
         const glm::dvec3 sum = sampleSum(whole.pixels[i]);
         const glm::dvec3 difference = abs(sum - sampleSum(a.pixels[i]) - sampleSum(b.pixels[i]));
-        count += any(greaterThan(difference, sum * 0x1p-40));
+        count += any(greaterThan(difference, sum * 0x1p-22));
     }
     return count;
 }
@@ -100,14 +103,15 @@ TEST(Slicing, FinishingEarlyIsAShorterRun) {
 }
 
 TEST(Slicing, VectorWidthsChangeNoBit) {
+    ::unsetenv("LP_NATIVE_VECTOR_WIDTH");  // a device of this process has set it, and children would inherit it
     const TemporaryFolder folder;
     std::vector<Image> images;
     for (const std::string bits : {"256", "512"}) {
         const std::string scene = sceneFolder() / "cloud_box.xml", file = bits + ".exr";
-        const ProgramResult result = runProgram(PARHELION_PROGRAM,
-                                                {"render", scene, "-o", file, "--size", "21x18", "--spp", "2",
-                                                 "--vector-bits", bits, "--quiet"},
-                                                folder.path());
+        const ProgramResult result =
+            runProgram(PARHELION_PROGRAM,
+                       {"render", scene, "-o", file, "--size", "21x18", "--spp", "2", "--vector-bits", bits, "--quiet"},
+                       folder.path());
         ASSERT_EQ(result.exitCode, 0) << result.error;
         images.push_back(readExr(folder.path() / file));
     }

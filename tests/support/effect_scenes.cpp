@@ -100,8 +100,8 @@ void storeAsBricks(CompiledScene& scene) {
         shared::Medium& medium = scene.constants.media[i];
         if (medium.flags & shared::kMediumHomogeneous) continue;
         const glm::uvec3 n = medium.resolution;
-        const DensityGrid grid = DensityGrid::fromDense(
-            n, std::span(dense).subspan(medium.voxelOffset, std::size_t(n.x) * n.y * n.z));
+        const DensityGrid grid =
+            DensityGrid::fromDense(n, std::span(dense).subspan(medium.voxelOffset, std::size_t(n.x) * n.y * n.z));
         medium.voxelOffset = appendDensity(grid, true, scene);
         medium.flags |= shared::kMediumBricked;
     }

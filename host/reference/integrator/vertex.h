@@ -53,8 +53,10 @@ bool scatter(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex, c
     const Real largest = maxComponent(throughput.beta);
     if (largest == 0) return false;
     const glm::uvec4 words = draw(path.key, vertex.index, shared::kDrawScatter);
-    if (vertex.index >= path.scene.constants.rouletteDepth) {
-        const Real survival = std::clamp(largest / throughput.meanR(), Real(0.05), Real(1));
+    const Real weight = largest / throughput.meanR();
+    // Far below what a film resolves, roulette at any depth: throughput must not sink into denormals (numerics H37).
+    if (vertex.index >= path.scene.constants.rouletteDepth || weight < Real(1e-20)) {
+        const Real survival = std::clamp(weight, Real(0.05), Real(1));
         const Real u = toUniform<Real>(words.w);
         if constexpr (Trace::kIsOn)
             path.trace.add(Decision{Decision::Kind::PathRoulette, vertex.index, 0, 0, double(u), double(survival)});
