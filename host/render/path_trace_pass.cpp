@@ -8,7 +8,8 @@
 namespace parhelion::render {
 namespace {
 
-constexpr std::uint32_t kGroup = 64;              // local_size_x of the kernels
+constexpr std::uint32_t kGroup = 64;  // local_size_x of the kernels
+constexpr std::uint32_t kFeatureLanes = 1u << 18;
 constexpr std::uint32_t kMaximumCrossings = 256;  // medium boundaries in front of the first opaque surface
 
 std::uint32_t groupsCovering(std::uint32_t lanes) { return (lanes + kGroup - 1) / kGroup; }
@@ -20,48 +21,68 @@ std::vector<gpu::Binding> withBuffers(std::vector<gpu::Binding> bindings, std::i
 
 }  // namespace
 
-PathTracePass::PathTracePass(gpu::Device& device, const CompiledScene& scene, const DeviceScene& deviceScene,
-                             const gpu::Specialisation& constants, std::uint32_t maximumLanes)
+PathTracePass::PathTracePass(gpu::Device& device, const DeviceScene& deviceScene, const gpu::Specialisation& constants,
+                             std::span<const Batch> batches)
     : device_(device),
-      film_(device.createBuffer(std::size_t{scene.cropSize.x} * scene.cropSize.y * sizeof(shared::FilmPixel))),
-      paths_(device.createBuffer(std::size_t{maximumLanes} * shared::kPathStateWords * 4)),
+      scene_(deviceScene),
+      batches_(batches.begin(), batches.end()),
+      paths_(device.createBuffer(std::size_t{batches.front().laneCount} * shared::kPathStateWords * 4)),
       counterBuffer_(device.createBuffer(shared::kCounterCount * 4)),
       pipeline_(device, gpu::shaderFolder() / "kernels/path_trace.comp", constants) {
-    pipeline_.bind(withBuffers(deviceScene.bindings(), {{.index = 12, .buffer = film_.handle()},
-                                                        {.index = 13, .buffer = paths_.handle()},
-                                                        {.index = 14, .buffer = counterBuffer_.handle()}}));
+    for (const Batch& batch : batches_)
+        films_.push_back(device.createBuffer(std::size_t{batch.laneCount} * sizeof(shared::FilmPixel)));
+    bindFilm(0);
 }
 
-double PathTracePass::run(const Batch& batch, const shared::PathArguments& arguments) {
+void PathTracePass::bindFilm(std::size_t batch) {
+    pipeline_.bind(withBuffers(scene_.bindings(), {{.index = 12, .buffer = films_[batch].handle()},
+                                                   {.index = 13, .buffer = paths_.handle()},
+                                                   {.index = 14, .buffer = counterBuffer_.handle()}}));
+    bound_ = batch;
+}
+
+double PathTracePass::run(std::size_t batch, const shared::PathArguments& arguments) {
+    if (batch != bound_) bindFilm(batch);
     std::memset(counterBuffer_.data(), 0, counterBuffer_.size());
     const double ms = device_.submit([&](VkCommandBuffer commands) {
-        pipeline_.record(commands, std::as_bytes(std::span(&arguments, 1)), groupsCovering(batch.laneCount));
+        pipeline_.record(commands, std::as_bytes(std::span(&arguments, 1)), groupsCovering(arguments.laneCount));
     });
     std::ranges::copy(counterBuffer_.as<std::uint32_t>(), counters_.begin());
     return ms;
 }
 
-std::span<const std::uint32_t> PathTracePass::samplesDone(const Batch& batch) {
-    return paths_.as<std::uint32_t>().subspan(std::size_t{shared::kPathSampleWord} * batch.laneCount, batch.laneCount);
+std::span<const std::uint32_t> PathTracePass::samplesDone(std::size_t batch) {
+    const std::uint32_t lanes = batches_[batch].laneCount;
+    return paths_.as<std::uint32_t>().subspan(std::size_t{shared::kPathSampleWord} * lanes, lanes);
+}
+
+std::vector<shared::FilmPixel> PathTracePass::film() {
+    std::vector<shared::FilmPixel> all;
+    for (gpu::Buffer& film : films_) {
+        const auto pixels = film.as<shared::FilmPixel>();
+        all.insert(all.end(), pixels.begin(), pixels.end());
+    }
+    return all;
 }
 
 std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const CompiledScene& scene,
                                                  const DeviceScene& deviceScene, const RenderSettings& settings,
                                                  const gpu::Specialisation& constants) {
     const std::uint32_t pixels = scene.cropSize.x * scene.cropSize.y;
-    gpu::Buffer features = device.createBuffer(std::size_t{pixels} * sizeof(shared::FeaturePixel));
     gpu::Buffer counters = device.createBuffer(shared::kCounterCount * 4);
     gpu::ComputePipeline pipeline(device, gpu::shaderFolder() / "kernels/features.comp", constants);
-    pipeline.bind(withBuffers(deviceScene.bindings(), {{.index = 14, .buffer = counters.handle()},
-                                                       {.index = 15, .buffer = features.handle()}}));
-    constexpr std::uint32_t kLanes = 1u << 18;
-    for (std::uint32_t sample = 0; sample < settings.featureSamples; ++sample)
-        for (std::uint32_t first = 0; first < pixels; first += kLanes) {
+    std::vector<shared::FeaturePixel> all;
+    for (std::uint32_t first = 0; first < pixels; first += kFeatureLanes) {
+        const std::uint32_t lanes = std::min(kFeatureLanes, pixels - first);
+        gpu::Buffer features = device.createBuffer(std::size_t{lanes} * sizeof(shared::FeaturePixel));
+        pipeline.bind(withBuffers(deviceScene.bindings(), {{.index = 14, .buffer = counters.handle()},
+                                                           {.index = 15, .buffer = features.handle()}}));
+        for (std::uint32_t sample = 0; sample < settings.featureSamples; ++sample) {
             const shared::PathArguments arguments{.filmSize = scene.filmSize,
                                                   .cropOffset = scene.cropOffset,
                                                   .cropSize = scene.cropSize,
                                                   .firstPixel = first,
-                                                  .laneCount = std::min(kLanes, pixels - first),
+                                                  .laneCount = lanes,
                                                   .sampleLow = sample,
                                                   .sampleHigh = 0,
                                                   .sampleCount = 1,
@@ -69,13 +90,15 @@ std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const Comp
                                                   .loopBudget = kMaximumCrossings,
                                                   .restart = 0};
             device.submit([&](VkCommandBuffer commands) {
-                pipeline.record(commands, std::as_bytes(std::span(&arguments, 1)), groupsCovering(arguments.laneCount));
+                pipeline.record(commands, std::as_bytes(std::span(&arguments, 1)), groupsCovering(lanes));
             });
         }
+        const auto done = features.as<shared::FeaturePixel>();
+        all.insert(all.end(), done.begin(), done.end());
+    }
     if (counters.as<std::uint32_t>()[shared::kCounterBvhOverflow] != 0)
         throw RuntimeFailure("the feature pass was cut short: a ray crossed too many boundaries or BVH nodes");
-    const auto all = features.as<shared::FeaturePixel>();
-    return {all.begin(), all.end()};
+    return all;
 }
 
 }  // namespace parhelion::render

@@ -18,23 +18,31 @@ struct Batch {
 /// The path tracing kernel with its film, saved paths and counters.
 class PathTracePass {
 public:
-    PathTracePass(gpu::Device& device, const CompiledScene& scene, const DeviceScene& deviceScene,
-                  const gpu::Specialisation& constants, std::uint32_t maximumLanes);
+    /// A film of any size: each batch has a buffer of its own, within what the device can bind.
+    PathTracePass(gpu::Device& device, const DeviceScene& deviceScene, const gpu::Specialisation& constants,
+                  std::span<const Batch> batches);
 
-    /// Runs one dispatch over `batch`. Returns device milliseconds; counters of the dispatch are in counters().
-    double run(const Batch& batch, const shared::PathArguments& arguments);
+    /// Runs one dispatch over a batch. Returns device milliseconds; counters of the dispatch are in counters().
+    double run(std::size_t batch, const shared::PathArguments& arguments);
     const std::array<std::uint32_t, shared::kCounterCount>& counters() const { return counters_; }
     /// Samples finished by each lane of the batch that ran last, within its window.
-    std::span<const std::uint32_t> samplesDone(const Batch& batch);
-    std::span<const shared::FilmPixel> film() { return film_.as<shared::FilmPixel>(); }
+    std::span<const std::uint32_t> samplesDone(std::size_t batch);
+    /// All batches' pixels, in crop order.
+    std::vector<shared::FilmPixel> film();
     /// Words the loop of one turn may spend beyond its budget: what loopBudget must leave of the driver's 65535.
     static constexpr std::uint32_t kMaximumLoopBudget = 12000;
 
 private:
     gpu::Device& device_;
-    gpu::Buffer film_, paths_, counterBuffer_;
+    const DeviceScene& scene_;
+    std::vector<Batch> batches_;
+    std::vector<gpu::Buffer> films_;
+    std::size_t bound_ = 0;  // batch whose film the pipeline points at
+    gpu::Buffer paths_, counterBuffer_;
     gpu::ComputePipeline pipeline_;
     std::array<std::uint32_t, shared::kCounterCount> counters_{};
+
+    void bindFilm(std::size_t batch);
 };
 
 /// The feature kernel: albedo, normal and depth of the first surfaces.

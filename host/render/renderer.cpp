@@ -39,7 +39,7 @@ struct Renderer::State {
           constants(specialise(scene_, settings_.effects, settings_.quality)),
           deviceScene(device_, scene_),
           batches(batchesOf(scene_.cropSize, maximumLanes(device_))),
-          pass(device_, scene_, deviceScene, constants, batches.front().laneCount) {}
+          pass(device_, deviceScene, constants, batches) {}
 
     gpu::Device& device;
     const CompiledScene& scene;
@@ -65,6 +65,7 @@ struct Renderer::State {
     void raiseLimit(std::uint32_t slowest);
     void checkCounters();
     void adaptBudget();
+    shared::PathArguments arguments(const Batch& running) const;
     double pathsDone() const { return static_cast<double>(counters[shared::kCounterPathsFinished]); }
     double pixels() const { return static_cast<double>(scene.cropSize.x) * scene.cropSize.y; }
     double passMs() const { return pathsDone() > 0 ? msSpent * pixels() / pathsDone() : kTargetMs; }
@@ -111,6 +112,21 @@ void Renderer::State::adaptBudget() {
         std::clamp(loopBudget * factor, double(kMinimumBudget), double(PathTracePass::kMaximumLoopBudget)));
 }
 
+shared::PathArguments Renderer::State::arguments(const Batch& running) const {
+    const std::uint64_t first = settings.firstSample + windowStart;
+    return {.filmSize = scene.filmSize,
+            .cropOffset = scene.cropOffset,
+            .cropSize = scene.cropSize,
+            .firstPixel = running.firstPixel,
+            .laneCount = running.laneCount,
+            .sampleLow = static_cast<std::uint32_t>(first),
+            .sampleHigh = static_cast<std::uint32_t>(first >> 32),
+            .sampleCount = limit,
+            .seed = settings.seed,
+            .loopBudget = loopBudget,
+            .restart = restart};
+}
+
 Renderer::Renderer(gpu::Device& device, const CompiledScene& scene, const RenderSettings& settings)
     : state_(std::make_unique<State>(device, scene, settings)) {}
 Renderer::~Renderer() = default;
@@ -124,22 +140,11 @@ bool Renderer::step() {
         s.raiseLimit(0);
     }
     const Batch& batch = s.batches[s.batch];
-    const std::uint64_t first = s.settings.firstSample + s.windowStart;
-    s.lastMs = s.pass.run(batch, {.filmSize = s.scene.filmSize,
-                                  .cropOffset = s.scene.cropOffset,
-                                  .cropSize = s.scene.cropSize,
-                                  .firstPixel = batch.firstPixel,
-                                  .laneCount = batch.laneCount,
-                                  .sampleLow = static_cast<std::uint32_t>(first),
-                                  .sampleHigh = static_cast<std::uint32_t>(first >> 32),
-                                  .sampleCount = s.limit,
-                                  .seed = s.settings.seed,
-                                  .loopBudget = s.loopBudget,
-                                  .restart = s.restart});
+    s.lastMs = s.pass.run(s.batch, s.arguments(batch));
     s.restart = false;
     s.msSpent += s.lastMs;
     s.checkCounters();
-    const auto done = s.pass.samplesDone(batch);
+    const auto done = s.pass.samplesDone(s.batch);
     const std::uint32_t slowest = *std::ranges::min_element(done);
     if (slowest >= s.limit && (s.limit >= s.windowSize || s.stopping)) {
         if (s.stopping) s.windowSize = s.limit;
@@ -171,8 +176,7 @@ Film Renderer::film() {
     film.filmSize = s.scene.filmSize;
     film.crop = {s.scene.cropOffset, s.scene.cropSize};
     film.samples = s.windowStart;
-    const auto pixels = s.pass.film();
-    film.pixels.assign(pixels.begin(), pixels.end());
+    film.pixels = s.pass.film();
     film.counters = s.counters;
     film.features = renderFeatures(s.device, s.scene, s.deviceScene, s.settings, s.constants);
     film.featureSamples = s.settings.featureSamples;

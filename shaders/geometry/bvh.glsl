@@ -35,7 +35,7 @@ void hitLeaf(inout Hit best, Ray ray, RayShear shear, int leaf, uint firstPrimit
         uint primitive = firstPrimitive + triangle;
         // A null triangle is crossed once; an opaque one may lie where the ray just left a medium.
         bool inRange = hit.x > ray.tMin || (hit.x == ray.tMin && !isNull);
-        if (inRange && primitive != ray.last && primitive != ray.target)
+        if (inRange && hit.x < ray.tMax && primitive != ray.last && primitive != ray.target)
             keepNearer(best, Hit(hit.x, primitive, hit.yz, false));
     }
 }

@@ -28,13 +28,13 @@ void hitConvex(inout Hit best, Ray ray, vec2 interval, uint primitive, uint shap
     bool candidate = interval.y >= interval.x && interval.y > ray.tMin && primitive != ray.target;
     bool enters = candidate && (isNull ? ahead && !surrounds(shape, ray.inside) : ahead || !own);
     float t = around ? max(interval.y, ray.tMin) : (isNull ? max(interval.x, ray.tMin) : opaque);
-    if (around || enters) keepNearer(best, Hit(t, primitive, vec2(0.0), around));
+    if ((around || enters) && t < ray.tMax) keepNearer(best, Hit(t, primitive, vec2(0.0), around));
 }
 
 // Shader only: within closestHit in the reference.
 void hitQuad(inout Hit best, Ray ray, Quad quad, uint primitive) {
     float t = intersectQuad(quad, ray.origin, ray.direction);
-    if (t >= ray.tMin && primitive != ray.last && primitive != ray.target)
+    if (t >= ray.tMin && t < ray.tMax && primitive != ray.last && primitive != ray.target)
         keepNearer(best, Hit(t, primitive, vec2(0.0), false));
 }
 

@@ -23,7 +23,7 @@ struct Hit {
 // Keeps the nearer of two hits; at equal t the exit of a null boundary wins, then the lowest primitive.
 void keepNearer(inout Hit best, Hit candidate) {
     bool nearer = candidate.t < best.t;
-    bool tie = candidate.t == best.t && best.primitive != kNone && !best.exits && (candidate.exits || candidate.primitive < best.primitive);
+    bool tie = candidate.t == best.t && !best.exits && (candidate.exits || candidate.primitive < best.primitive);
     if (nearer || tie) best = candidate;
 }
 

@@ -91,7 +91,7 @@ void tracePixel(uint laneId) {
     loadScene();
     Lane lane;
     uvec2 inCrop = lanePixel(laneId);
-    uint filmIndex = inCrop.y * arguments.cropSize.x + inCrop.x;
+    uint filmIndex = inCrop.y * arguments.cropSize.x + inCrop.x - arguments.firstPixel;  // the batch has its own film
     lane.pixel = arguments.cropOffset + inCrop;
     lane.pixelIndex = lane.pixel.y * arguments.filmSize.x + lane.pixel.x;
     lane.film = film[filmIndex];

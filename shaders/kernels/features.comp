@@ -18,7 +18,7 @@ void main() {
     if (gl_GlobalInvocationID.x >= arguments.laneCount) return;
     uvec2 pixel = arguments.cropOffset + uvec2(index % arguments.cropSize.x, index / arguments.cropSize.x);
     uint pixelIndex = pixel.y * arguments.filmSize.x + pixel.x;
-    FeaturePixel sums = features[index];
+    FeaturePixel sums = features[gl_GlobalInvocationID.x];
     bool ok = true;
     uint tests = 0u;
     for (uint i = 0u; i < arguments.sampleCount; ++i) {
@@ -26,6 +26,6 @@ void main() {
         uvec4 word = draw(key, 0u, kDrawFeature);
         ok = addFeature(sums, pixel, vec2(toUniform(word.x), toUniform(word.y)), tests, arguments.loopBudget) && ok;
     }
-    features[index] = sums;
+    features[gl_GlobalInvocationID.x] = sums;
     if (!ok) atomicAdd(counters[kCounterBvhOverflow], 1u);
 }

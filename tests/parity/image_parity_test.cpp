@@ -74,22 +74,21 @@ struct Parity {
 
 /// Traces sample `index` of every pixel; gives the film's sums, all earlier samples included.
 std::vector<glm::dvec3> addSample(render::PathTracePass& pass, const CompiledScene& scene, std::uint64_t index) {
-    const render::Batch batch{.firstPixel = 0, .laneCount = kSize.x * kSize.y};
     bool restart = true;
     do {
-        pass.run(batch, {.filmSize = scene.filmSize,
-                         .cropOffset = scene.cropOffset,
-                         .cropSize = scene.cropSize,
-                         .firstPixel = 0,
-                         .laneCount = batch.laneCount,
-                         .sampleLow = std::uint32_t(index),
-                         .sampleHigh = std::uint32_t(index >> 32),
-                         .sampleCount = 1,
-                         .seed = 0,
-                         .loopBudget = kBudget,
-                         .restart = restart});
+        pass.run(0, {.filmSize = scene.filmSize,
+                     .cropOffset = scene.cropOffset,
+                     .cropSize = scene.cropSize,
+                     .firstPixel = 0,
+                     .laneCount = kSize.x * kSize.y,
+                     .sampleLow = std::uint32_t(index),
+                     .sampleHigh = std::uint32_t(index >> 32),
+                     .sampleCount = 1,
+                     .seed = 0,
+                     .loopBudget = kBudget,
+                     .restart = restart});
         restart = false;
-    } while (std::ranges::count(pass.samplesDone(batch), 0u) > 0);
+    } while (std::ranges::count(pass.samplesDone(0), 0u) > 0);
     std::vector<glm::dvec3> sums;
     for (const shared::FilmPixel& pixel : pass.film()) sums.push_back(sampleSum(pixel));
     return sums;
@@ -137,8 +136,8 @@ void traceReference(const CompiledScene& scene, std::uint64_t index, std::span<P
 std::vector<PathPair> tracePaths(const CompiledScene& onDevice, const CompiledScene& onReference) {
     gpu::Device& device = testDevice();
     const render::DeviceScene deviceScene(device, onDevice);
-    render::PathTracePass pass(device, onDevice, deviceScene, render::specialise(onDevice, onDevice.effects, {}),
-                               kSize.x * kSize.y);
+    const render::Batch batch{.firstPixel = 0, .laneCount = kSize.x * kSize.y};
+    render::PathTracePass pass(device, deviceScene, render::specialise(onDevice, onDevice.effects, {}), {&batch, 1});
     std::vector<PathPair> all;
     std::vector<glm::dvec3> before(kSize.x * kSize.y, glm::dvec3(0));
     for (const std::uint64_t index : kSampleIndices) {

@@ -127,7 +127,7 @@ TEST_F(IntersectionParity, ClosestHitSurfaceAndCrossingAgreeH40H53) {
     Parity closest("geometry/intersection", "closestHit hitConvex", 62),
         cross("geometry/intersection", "crossBoundary", 0);
     // Position 2 from the ray, 5 from barycentrics; normals: cross product of differences 5, normalisation 9.
-    Parity surface("geometry/intersection", "surfaceAt triangleSurface", 14),
+    Parity surface("geometry/surface", "surfaceAt triangleSurface", 14),
         traversal("geometry/bvh", "traverse hitLeaf", 0);
     std::size_t different = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -269,8 +269,7 @@ TEST_F(IntersectionParity, NormalsOfConvexShapesAgree) {
     for (int i = 0; i < 5'000; ++i) inputs.emplace_back(stress.point(3), 0);
     const auto outputs = test::SceneProbe(built_.scene).run(kShader, kNormals, inputs, 1, 3);
     // A column's normalisation; a difference more for the sphere.
-    Parity box("geometry/intersection", "boxNormal boxSurface", 9),
-        sphere("geometry/intersection", "sphereSurface", 10 + 9);
+    Parity box("geometry/surface", "boxNormal boxSurface", 9), sphere("geometry/surface", "sphereSurface", 10 + 9);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const glm::dvec3 p(inputs[i]), local = glm::abs(view_.boxes[0].localFromWorld.point(p));
         glm::dvec3 sorted = local;

@@ -125,14 +125,19 @@ TEST(FreeFlight, BoundsTooLowWouldBeSeen) {  // H17: in a constant density the f
     flightsThrough(constant(0.9f), true, 1, 0.5).expectMisfit("bounds a tenth too low");
 }
 
-TEST(FreeFlight, FollowsAStepBetweenTwoMedia) {  // H38
-    // Densities 1/3 and 1 of sigma 0.75 in boxes that touch: grids of one voxel, so that one bound, 0.75, serves both.
+// Densities 1/3 and 1 of sigma 0.75 in boxes that touch: grids of one voxel, so that one bound, 0.75, serves both.
+test::HandScene twoTouchingMedia() {
     test::HandScene scene;
     const std::vector<float> thin{1 / 3.0f}, thick{1};
     const std::uint32_t first = scene.addGrid(0.75f, glm::vec3(1), {1, 1, 1}, thin, {-1, -1, 0}, {1, 1, 0.5f}, 3);
     const std::uint32_t second = scene.addGrid(0.75f, glm::vec3(1), {1, 1, 1}, thick, {-1, -1, 0.5f}, {1, 1, 1});
     scene.addBox({-1, -1, 0}, {1, 1, 0.5f}, scene.addNull(first));
     scene.addBox({-1, -1, 0.5f}, {1, 1, 1}, scene.addNull(second));
+    return scene;
+}
+
+TEST(FreeFlight, FollowsAStepBetweenTwoMedia) {  // H38
+    const test::HandScene scene = twoTouchingMedia();
     const SceneView<float> view(scene.scene);
     const Quality quality;
     Counters counters{};
