@@ -88,7 +88,9 @@ void stepSegment(inout Segment s, Medium medium, GridRay ray, uvec2 key, uint ve
     uvec4 word = draw(key, vertex, segmentPurpose(s));
     float density = 1.0;
     if (hasHeterogeneousMedia) {
-        float value = densityAt(medium, ray.origin + t * ray.direction, cornerOffsets(word));
+        // Lanes that only change cells would fetch too, and miss the caches: they all read the first voxel.
+        vec3 position = collides ? ray.origin + t * ray.direction : vec3(0.5);
+        float value = densityAt(medium, position, cornerOffsets(word));
         density = homogeneous ? density : value;
     }
     s.t = t;
