@@ -23,7 +23,8 @@ void addImageOptions(CLI::App& command, RenderArguments& arguments) {
         ->type_name("FILE");
     addIntegerOption(command, "--spp", arguments.sampleCount, 1, kMaxSamples,
                      "samples per pixel, instead of the scene's");
-    addIntegerOption(command, "--seed", arguments.seed, 0, kMaxUint, "picks the random numbers (default 0)");
+    addIntegerOption(command, "--seed", arguments.seed, 0, kMaxUint,
+                     "picks the random numbers (default: the scene's, 0)");
     addParsedOption(command, "--crop", arguments.crop, "X,Y,WxH", "render only these pixels of the film", parseCrop);
     addIntegerOption(command, "--max-depth", arguments.maxDepth, -1, 0x7fffffff,
                      "scatterings a path may have, instead of the scene's; -1: unlimited");

@@ -85,7 +85,7 @@ RenderSettings chooseSettings(const RenderArguments& arguments, const CompiledSc
     RenderSettings settings;
     settings.sampleCount =
         arguments.sampleCount ? static_cast<std::uint64_t>(*arguments.sampleCount) : scene.sampleCount;
-    settings.seed = arguments.seed;
+    settings.seed = arguments.seed ? static_cast<std::uint32_t>(*arguments.seed) : scene.seed;
     settings.featureSamples = arguments.featureSamples;
     settings.quality = arguments.quality;
     if (arguments.stepsPerEvent) settings.quality.stepsPerEvent = *arguments.stepsPerEvent;

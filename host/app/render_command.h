@@ -17,7 +17,7 @@ struct RenderArguments {
     std::string output;
     std::optional<std::int64_t> sampleCount, maxDepth;
     std::optional<PixelRect> crop;
-    std::uint32_t seed = 0;
+    std::optional<std::int64_t> seed;
     std::uint32_t featureSamples = 16;
     Backend backend = Backend::Vulkan;
     bool sampleEveryLight = false;

@@ -30,6 +30,7 @@ void compileIntegrator(const SceneDescription& description, const CompileOptions
     scene.constants.maxDepth = depth < 0 ? shared::kNone : std::uint32_t(std::min(depth, kUnlimited));
     scene.constants.rouletteDepth = std::uint32_t(std::min(description.integrator.rouletteDepth, kUnlimited));
     scene.sampleCount = description.sampleCount;
+    scene.seed = description.seed;
 }
 
 /// Decides which shapes and media remain, and numbers them.

@@ -67,6 +67,7 @@ struct CompiledScene {
     glm::uvec2 filmSize{0};
     glm::uvec2 cropOffset{0}, cropSize{0};
     std::uint64_t sampleCount = 16;
+    std::uint32_t seed = 0;          ///< the scene's choice of random numbers
     glm::dvec3 worldOrigin{0.0};     ///< world position of this scene's origin (the camera)
     std::vector<std::string> notes;  ///< what a user should know (dropped lights, ...)
 
