@@ -54,7 +54,7 @@ copyCheckout() {
     else
         tar -C "$root" --exclude='./build*' --exclude='./.git' -cf - .
     fi | tar -C "$bare/src/parhelion" -xf -
-    [ -d "$root/../shared" ] && cp -a "$root/../shared" "$bare/src/shared"
+    [ -d "$root/../shared" ] && cp -aL "$root/../shared" "$bare/src/shared"
     return 0
 }
 

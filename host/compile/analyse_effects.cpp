@@ -15,6 +15,7 @@ public:
     EffectSet run() {
         surfaces();
         media();
+        phaseFunctions();
         lights();
         decide(Effect::hasDepthLimit, constants_.maxDepth != shared::kNone,
                fmt::format("paths end after depth {}", constants_.maxDepth), "paths end by roulette alone");
@@ -64,6 +65,9 @@ private:
                countOf(constants_.triangleCount, "triangle", "triangles"), "no triangle");
         decide(Effect::hasDoubleSided, twoSided > 0, countOf(twoSided, "two-sided shape", "two-sided shapes"),
                "every surface is one-sided");
+        const std::size_t textured = countShapes([](const auto& shape) { return shape.texture != shared::kNone; });
+        decide(Effect::hasTextures, textured > 0, countOf(textured, "textured shape", "textured shapes"),
+               "every reflectance is constant");
         decide(Effect::hasVertexNormals, !scene_.vertexNormals.empty(), "a mesh has vertex normals",
                "every triangle is flat");
     }
@@ -73,12 +77,11 @@ private:
         const std::size_t count = constants_.mediumCount;
         const std::size_t homogeneous =
             countMedia([](const Medium& medium) { return medium.flags & shared::kMediumHomogeneous; });
-        const std::size_t chromatic =
-            countMedia([](const Medium& medium) { return medium.sigmaRatio != glm::vec3(1.0f); });
+        const std::size_t chromatic = countMedia([](const Medium& medium) {
+            return medium.sigmaRatio != glm::vec3(1.0f) || (medium.flags & shared::kMediumColorDensity) != 0;
+        });
         const std::size_t albedoGrids =
             countMedia([](const Medium& medium) { return medium.flags & shared::kMediumAlbedoGrid; });
-        const std::size_t anisotropic =
-            countMedia([](const Medium& medium) { return medium.phase == shared::kPhaseHenyeyGreenstein; });
         const std::size_t bricked =
             countMedia([](const Medium& medium) { return medium.flags & shared::kMediumBricked; });
         decide(Effect::hasMedia, count > 0, countOf(count, "medium", "media"), "no medium");
@@ -97,11 +100,29 @@ private:
                "every extinction is grey");
         decide(Effect::hasAlbedoGrids, albedoGrids > 0, countOf(albedoGrids, "albedo grid", "albedo grids"),
                "every albedo is constant");
+        const std::size_t colored =
+            countMedia([](const Medium& medium) { return medium.flags & shared::kMediumColorDensity; });
+        decide(Effect::hasColorDensity, colored > 0,
+               countOf(colored, "grid of three channels", "grids of three channels"), "every density grid is grey");
+        decide(Effect::hasBrickedDensity, bricked > 0, "a density grid is large and sparse, or huge",
+               "dense grids are small enough");
+    }
+
+    void phaseFunctions() {
+        using shared::Medium;
+        const auto countPhase = [&](std::uint32_t phase) {
+            return countMedia([&](const Medium& medium) { return medium.phase == phase; });
+        };
+        const std::size_t anisotropic = countPhase(shared::kPhaseHenyeyGreenstein);
         decide(Effect::hasHenyeyGreenstein, anisotropic > 0,
                countOf(anisotropic, "anisotropic phase function", "anisotropic phase functions"),
                "every phase function is isotropic");
-        decide(Effect::hasBrickedDensity, bricked > 0, "a density grid is large and sparse, or huge",
-               "dense grids are small enough");
+        decide(Effect::hasDualHenyeyGreenstein, countPhase(shared::kPhaseDualHenyeyGreenstein) > 0,
+               "a medium scatters in two lobes", "no phase function of two lobes");
+        decide(Effect::hasRayleigh, countPhase(shared::kPhaseRayleigh) > 0, "a medium scatters as small particles do",
+               "no Rayleigh phase function");
+        decide(Effect::hasTabulatedPhase, countPhase(shared::kPhaseTabulated) > 0, "a phase function is tabulated",
+               "no tabulated phase function");
     }
 
     void lights() {
@@ -114,11 +135,24 @@ private:
             return light.type == shared::kLightQuad || light.type == shared::kLightSphere ||
                    light.type == shared::kLightMesh;
         });
+        const std::size_t texturedLights =
+            countLights([](const Light& light) { return light.texture != shared::kNone; });
+        decide(Effect::hasTexturedLights, texturedLights > 0,
+               countOf(texturedLights, "textured light", "textured lights"), "every area light is uniform");
         const bool environment = constants_.environment != shared::kNone;
         const bool environmentSampled = environment && constants_.lights[constants_.environment].selection > 0.0f;
-        decide(Effect::hasEnvironment, environment, "a constant emitter surrounds the scene",
-               "no emitter surrounds the scene");
-        decide(Effect::hasEnvironmentSampling, environmentSampled, "every light is to be sampled",
+        const std::uint32_t surrounding = environment ? constants_.lights[constants_.environment].type : shared::kNone;
+        decide(Effect::hasEnvironmentMap, surrounding == shared::kLightEnvironmentMap, "an environment map is given",
+               "no environment map");
+        decide(Effect::hasSky, surrounding == shared::kLightSky, "a gradient sky is given", "no gradient sky");
+        decide(Effect::hasStars, surrounding == shared::kLightSky && constants_.sky.starCount > 0,
+               countOf(constants_.sky.starCount, "star", "stars"), "no star");
+        decide(Effect::hasStrategyWeights, constants_.emitterSamples != 1.0f || constants_.scatterSamples != 1.0f,
+               fmt::format("direct lighting takes {} light and {} scattering samples", constants_.emitterSamples,
+                           constants_.scatterSamples),
+               "light and scattering samples weigh the same");
+        decide(Effect::hasEnvironment, environment, "an emitter surrounds the scene", "no emitter surrounds the scene");
+        decide(Effect::hasEnvironmentSampling, environmentSampled, "it is sampled like other lights",
                environment ? "scattering finds a constant environment better" : "no emitter surrounds the scene");
         decide(Effect::hasDeltaLights, delta > 0,
                countOf(delta, "directional or point light", "directional and point lights"),

@@ -62,6 +62,7 @@ shared::Shape makeShape(const KeptShape& kept, bool asTriangles) {
     record.interior = kept.interior;
     record.exterior = kept.exterior;
     record.light = shared::kNone;
+    record.texture = shared::kNone;
     return record;
 }
 

@@ -57,6 +57,7 @@ public:
         const glm::vec3 radiance = toFloat(*source.radiance, source.where, nameOf(source) + ": radiance");
         if (isBlack(radiance)) return noteBlack(nameOf(source));
         shared::Light light{};
+        light.texture = shared::kNone;
         light.emission = radiance;
         const double area = writeSurface(shapeIndex, light);
         // From outside, where it would be sampled, a sphere that emits inwards is dark.
@@ -66,9 +67,11 @@ public:
     }
 
     void addEmitter(const EmitterDescription& emitter) {
-        static constexpr const char* kNames[] = {"directional emitter", "point emitter", "constant emitter"};
+        static constexpr const char* kNames[] = {"directional emitter", "point emitter", "constant emitter",
+                                                 "environment map", "sky"};
         const std::string name = kNames[static_cast<int>(emitter.type)];
         shared::Light light{};
+        light.texture = shared::kNone;
         light.emission = toFloat(emitter.value, emitter.where, name);
         if (isBlack(light.emission)) return noteBlack(name);
         light.primitive = shared::kNone;
@@ -88,6 +91,9 @@ public:
                 return append(
                     {light, sampleEveryLight_ ? 4.0 * kPi * kPi * radius_ * radius_ * flux : 0.0, shared::kNone},
                     emitter.where);
+            case EmitterDescription::Type::EnvironmentMap:
+            case EmitterDescription::Type::Sky:
+                throw InputError(emitter.where, name + " is not supported");
         }
     }
 

@@ -29,6 +29,8 @@ void compileIntegrator(const SceneDescription& description, const CompileOptions
     constexpr std::int64_t kUnlimited = shared::kNone;
     scene.constants.maxDepth = depth < 0 ? shared::kNone : std::uint32_t(std::min(depth, kUnlimited));
     scene.constants.rouletteDepth = std::uint32_t(std::min(description.integrator.rouletteDepth, kUnlimited));
+    scene.constants.emitterSamples = float(description.integrator.emitterSamples);
+    scene.constants.scatterSamples = float(description.integrator.scatterSamples);
     scene.sampleCount = description.sampleCount;
     scene.seed = description.seed;
 }
@@ -136,8 +138,6 @@ CompiledScene compileScene(const SceneDescription& description, const CompileOpt
     compileLights(description, selection.shapes(), emissive, options.sampleEveryLight, scene);
     const std::size_t inlined = std::min<std::size_t>(scene.shapes.size(), shared::kMaxInlineShapes);
     std::copy_n(scene.shapes.begin(), inlined, scene.constants.shapes);
-    const std::size_t inlineShapes = std::min<std::size_t>(scene.shapes.size(), shared::kMaxInlineShapes);
-    std::copy_n(scene.shapes.begin(), inlineShapes, scene.constants.shapes);
 
     if (scene.memoryBytes() > limit)
         throw RuntimeFailure(

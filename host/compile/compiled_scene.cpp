@@ -32,7 +32,17 @@ std::vector<ArraySize> CompiledScene::arraySizes() const {
             {"albedoVoxels", bytesOf(albedoVoxels)},
             {"lightTriangleCdf", bytesOf(lightTriangleCdf)},
             {"lightTriangles", bytesOf(lightTriangles)},
-            {"filterTable", bytesOf(filterTable)}};
+            {"filterTable", bytesOf(filterTable)},
+            {"textures", bytesOf(textures)},
+            {"textureTexels", bytesOf(textureTexels)},
+            {"triangleUvs", bytesOf(triangleUvs)},
+            {"phaseTable", bytesOf(phaseTable)},
+            {"environmentTexels", bytesOf(environmentTexels)},
+            {"aliasTable", bytesOf(aliasTable)},
+            {"environmentRows", bytesOf(environmentRows)},
+            {"skyBands", bytesOf(skyBands)},
+            {"stars", bytesOf(stars)},
+            {"starCells", bytesOf(starCells)}};
 }
 
 std::size_t CompiledScene::memoryBytes() const {

@@ -33,6 +33,18 @@ DeviceScene::DeviceScene(gpu::Device& device, const CompiledScene& scene) {
     addTexels(device, 9, scene.lightTriangleCdf, r);
     addTexels(device, 10, scene.lightTriangles, u);
     addTexels(device, 11, scene.filterTable, r);
+
+    const VkFormat rg = VK_FORMAT_R32G32_SFLOAT, uu = VK_FORMAT_R32G32_UINT;
+    addTexels(device, 16, scene.textures, rgba);
+    addTexels(device, 17, scene.textureTexels, rgba);
+    addTexels(device, 18, scene.triangleUvs, rg);
+    addTexels(device, 19, scene.phaseTable, r);
+    addTexels(device, 20, scene.environmentTexels, rgba);
+    addTexels(device, 21, scene.aliasTable, uu);
+    addTexels(device, 22, scene.environmentRows, rg);
+    addTexels(device, 23, scene.skyBands, r);
+    addTexels(device, 24, scene.stars, rgba);
+    addTexels(device, 25, scene.starCells, u);
 }
 
 }  // namespace parhelion::render

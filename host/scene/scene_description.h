@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "image/bitmap.h"
+#include "shared/cloud_types.h"
 #include "volume/density_grid.h"
 
 namespace parhelion {
@@ -40,27 +42,45 @@ struct CameraDescription {
 };
 
 struct IntegratorDescription {
-    std::string type = "volpath";  ///< path | volpath
+    std::string type = "volpath";  ///< direct | path | volpath; direct: `path` of depth 2 with the samples below
+    double emitterSamples = 1;     ///< direct: weight of light sampling, 0: scattering alone
+    double scatterSamples = 1;     ///< direct: weight of scattering, 0: light sampling alone
+    unsigned depthLayers = 0;      ///< film layers by number of scatterings
     std::int64_t maxDepth = -1;    ///< Mitsuba's meaning; -1: unlimited
     std::int64_t rouletteDepth = 5;
+};
+
+/// A colour over a surface's (u, v).
+struct TextureDescription {
+    enum class Type { Bitmap, Checkerboard } type = Type::Bitmap;
+    enum class Wrap { Repeat, Mirror, Clamp } wrap = Wrap::Repeat;
+    SourceLocation where;
+    Bitmap bitmap;                        ///< linear; row 0 at v = 0
+    bool nearest = false;                 ///< else bilinear
+    glm::dmat3 uvTransform{1.0};          ///< (u', v', 1) = uvTransform * (u, v, 1)
+    glm::dvec3 color0{0.4}, color1{0.2};  ///< checkerboard, Mitsuba's defaults
 };
 
 struct BsdfDescription {
     enum class Type { Diffuse, Null } type = Type::Diffuse;
     SourceLocation where;
-    glm::dvec3 reflectance{0.5};
+    glm::dvec3 reflectance{0.5};         ///< tints the texture, if there is one
+    std::optional<std::size_t> texture;  ///< index into textures
     bool twoSided = false;
 };
 
 struct PhaseDescription {
-    enum class Type { Isotropic, HenyeyGreenstein } type = Type::Isotropic;
+    enum class Type { Isotropic, HenyeyGreenstein, DualHenyeyGreenstein, Rayleigh, Tabulated } type = Type::Isotropic;
     SourceLocation where;
     double g = 0.0;
+    double g2 = 0.0, lobeWeight = 1.0;  ///< dual: lobeWeight * HG(g) + (1 - lobeWeight) * HG(g2)
+    std::vector<double> table;          ///< tabulated: values at equidistant mu from -1 to 1, mu = dot(-wo, wi)
 };
 
 /// A volume placed in the world: the unit cube under toWorld (Mitsuba's gridvolume).
 struct GridPlacement {
-    Volume volume;
+    Volume volume;                            ///< with `cloud`: the density it modulates, if any
+    std::optional<shared::CloudField> cloud;  ///< procedural density, to be baked before compileScene
     glm::dmat4 toWorld{1.0};  ///< grid-local [0, 1]^3 -> world, bounding box already included where asked for
     SourceLocation where;
 };
@@ -87,14 +107,30 @@ struct ShapeDescription {
     Mesh mesh;  ///< Type::Mesh
     BsdfDescription bsdf;
     std::optional<std::size_t> interior, exterior;  ///< indices into media
-    std::optional<glm::dvec3> radiance;             ///< area emitter
+    std::optional<glm::dvec3> radiance;             ///< area emitter; tints the texture, if there is one
+    std::optional<std::size_t> radianceTexture;     ///< index into textures
+};
+
+/// The project's gradient sky with stars; see shared::Sky for the formula.
+struct SkyDescription {
+    glm::dvec3 axis{0.0, 1.0, 0.0};
+    double offset = 0.0, width = 1.0, power = 1.0;
+    glm::dvec3 top{0.0}, bottom{0.0};  ///< radiance
+    double starDensity = 0.0;          ///< stars per steradian
+    double starSizeDegrees = 0.1;      ///< angular diameter
+    glm::dvec3 starRadiance{1.0};
+    std::uint32_t starSeed = 0;
 };
 
 struct EmitterDescription {
-    enum class Type { Directional, Point, Constant } type = Type::Constant;
+    enum class Type { Directional, Point, Constant, EnvironmentMap, Sky } type = Type::Constant;
     SourceLocation where;
     glm::dvec3 value{1.0};             ///< irradiance, intensity or radiance
     glm::dvec3 vector{0.0, 0.0, 1.0};  ///< direction of travel (unit), or position
+    Bitmap map;                        ///< environment map, linear; `value` scales it
+    glm::dmat4 toWorld{1.0};           ///< environment map: its rotation
+    bool misCompensation = false;      ///< environment map: sample what is above its mean only
+    SkyDescription sky;
 };
 
 /// What the author wrote, checked value by value; every part keeps its location.
@@ -103,8 +139,9 @@ struct SceneDescription {
     CameraDescription camera;
     FilmDescription film;
     IntegratorDescription integrator;
-    std::uint64_t sampleCount = 4;         ///< Mitsuba's default
-    std::uint32_t seed = 0;                ///< the sampler's
+    std::uint64_t sampleCount = 4;  ///< Mitsuba's default
+    std::uint32_t seed = 0;         ///< the sampler's
+    std::vector<TextureDescription> textures;
     std::vector<MediumDescription> media;  ///< those that shapes use
     std::vector<ShapeDescription> shapes;
     std::vector<EmitterDescription> emitters;

@@ -19,6 +19,16 @@ layout(set = 0, binding = 8) uniform samplerBuffer albedoTexels;
 layout(set = 0, binding = 9) uniform samplerBuffer lightCdfTexels;
 layout(set = 0, binding = 10) uniform usamplerBuffer lightTriangleTexels;
 layout(set = 0, binding = 11) uniform samplerBuffer filterTexels;
+layout(set = 0, binding = 16) uniform samplerBuffer textureRecords;     // 6 a texture
+layout(set = 0, binding = 17) uniform samplerBuffer textureTexels;      // rgb
+layout(set = 0, binding = 18) uniform samplerBuffer triangleUvTexels;   // 3 a triangle
+layout(set = 0, binding = 19) uniform samplerBuffer phaseTexels;
+layout(set = 0, binding = 20) uniform samplerBuffer environmentTexels;  // rgb; w: density of sampling, see environmentMap
+layout(set = 0, binding = 21) uniform usamplerBuffer aliasTexels;       // of the environment map or the sky
+layout(set = 0, binding = 22) uniform samplerBuffer environmentRows;    // sin^2, cos^2 of half the polar angle
+layout(set = 0, binding = 23) uniform samplerBuffer skyBands;           // density of each band per steradian
+layout(set = 0, binding = 24) uniform samplerBuffer starTexels;         // 2 a star
+layout(set = 0, binding = 25) uniform usamplerBuffer starCells;
 
 // Private copies of what the path loop reads all the time. A load from the uniform block is a gather on
 // the software driver, whatever its offset, and none is moved out of a loop; these are registers.
@@ -59,7 +69,6 @@ void loadScene() {
     triangleCount = scene.triangleCount;
 }
 
-// `reserved` is not read.
 Shape shapeAt(uint index) {
     if (shapeCount <= kNearCount) {
         Shape shape = nearShapes[0];
@@ -70,7 +79,7 @@ Shape shapeAt(uint index) {
     }
     vec4 a = texelFetch(shapeTexels, int(2u * index));
     uvec4 b = floatBitsToUint(texelFetch(shapeTexels, int(2u * index + 1u)));
-    return Shape(a.xyz, floatBitsToUint(a.w), b.x, b.y, b.z, 0u);
+    return Shape(a.xyz, floatBitsToUint(a.w), b.x, b.y, b.z, b.w);
 }
 
 // Medium inside shape `index`, or kNone.

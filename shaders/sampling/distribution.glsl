@@ -20,4 +20,12 @@ uint firstAbove(uint offset, uint count, float u) {
     return high;
 }
 
+// Outcome of the alias table of `count` entries from `offset` on (host/compile/alias_table.h) for a random word.
+uint sampleAlias(uint offset, uint count, uint word) {
+    uint bucket, rest;
+    umulExtended(word, count, bucket, rest);
+    uvec2 entry = texelFetch(aliasTexels, int(offset + bucket)).xy;
+    return rest < entry.x ? bucket : entry.y;
+}
+
 #endif

@@ -29,6 +29,16 @@
     X(hasDoubleSided, 19, "two-sided surfaces")                                 \
     X(hasVertexNormals, 20, "interpolated vertex normals")                      \
     X(hasFilterTable, 21, "non-box reconstruction filter")                      \
-    X(hasNestedMedia, 22, "media within media")
+    X(hasNestedMedia, 22, "media within media")                                 \
+    X(hasTextures, 23, "textured surfaces")                                     \
+    X(hasTexturedLights, 24, "textured area lights")                            \
+    X(hasEnvironmentMap, 25, "environment map")                                 \
+    X(hasSky, 26, "gradient sky")                                               \
+    X(hasStars, 27, "stars")                                                    \
+    X(hasDualHenyeyGreenstein, 28, "dual Henyey-Greenstein phase functions")    \
+    X(hasRayleigh, 29, "Rayleigh phase functions")                              \
+    X(hasTabulatedPhase, 30, "tabulated phase functions")                       \
+    X(hasColorDensity, 31, "density grids with a value a channel")              \
+    X(hasStrategyWeights, 32, "direct lighting by other than one sample of each strategy")
 
 #endif

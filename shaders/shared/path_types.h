@@ -43,6 +43,7 @@ SHARED_CONST(uint, kDrawLight, 1u);
 SHARED_CONST(uint, kDrawScatter, 2u);
 SHARED_CONST(uint, kDrawAlbedo, 3u);
 SHARED_CONST(uint, kDrawFeature, 4u);            // the feature pass's film position
+SHARED_CONST(uint, kDrawEnvironment, 5u);        // where on an environment map or sky
 SHARED_CONST(uint, kDrawFlight, 0x40000000u);    // | index of the tentative collision on this ray
 SHARED_CONST(uint, kDrawShadow, 0x80000000u);    // | index of the tentative collision on this ray
 

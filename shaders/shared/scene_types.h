@@ -32,9 +32,33 @@ struct Shape {
     uint interior;     // medium behind the surface (against the normal), or kNone
     uint exterior;     // shape whose interior surrounds this one, or kNone (vacuum): see "inside" in README
     uint light;        // index into lights, or kNone
-    uint reserved;
+    uint texture;      // index into the textures, which `reflectance` then tints, or kNone
 };
 SHARED_LAYOUT(Shape, 32);
+
+// Bits of Texture.flags. A checkerboard reads no texels.
+SHARED_CONST(uint, kTextureCheckerboard, 1u);
+SHARED_CONST(uint, kTextureNearest, 2u);    // otherwise bilinear between texel centres
+SHARED_CONST(uint, kTextureClamp, 4u);      // wrap mode; neither bit: repeat
+SHARED_CONST(uint, kTextureMirror, 8u);
+
+// A colour over the (u, v) of a surface, as six texels. Bitmap: texel (i, j), row j = 0 at v = 0, is textureTexels[offset + j * size.x + i].
+struct Texture {
+    vec2 transformU;   // (u', v') = transformU * u + transformV * v + translation
+    vec2 transformV;
+    vec2 translation;
+    uint flags;        // kTexture*
+    uint offset;
+    uvec2 size;        // texels
+    uint reserved0;
+    uint reserved1;
+    vec3 color0;       // checkerboard: where both or neither of fract(u'), fract(v') are below 1/2
+    uint reserved2;
+    vec3 color1;       // checkerboard: elsewhere
+    uint reserved3;
+    vec4 reserved4;
+};
+SHARED_LAYOUT(Texture, 96);
 
 // Parallelogram corner + u * edgeU + v * edgeV, u and v in [0, 1].
 struct Quad {
@@ -60,8 +84,12 @@ struct Sphere {
     uint flags;  // the shape's
     uint reserved1;
     uint reserved2;
+    vec3 axisX;  // world directions of the sphere's own x and z axes, unit: for (u, v)
+    uint reserved3;
+    vec3 axisZ;
+    float handedness;  // +1, or -1 under a mirroring transform: its y axis is handedness * cross(axisZ, axisX)
 };
-SHARED_LAYOUT(Sphere, 32);
+SHARED_LAYOUT(Sphere, 64);
 
 // The image of [-1, 1]^3 under an affine map.
 struct Box {
@@ -75,11 +103,15 @@ SHARED_LAYOUT(Box, 64);
 
 SHARED_CONST(uint, kPhaseIsotropic, 0u);
 SHARED_CONST(uint, kPhaseHenyeyGreenstein, 1u);
+SHARED_CONST(uint, kPhaseDualHenyeyGreenstein, 2u);  // lobeWeight * HG(g) + (1 - lobeWeight) * HG(g2)
+SHARED_CONST(uint, kPhaseRayleigh, 3u);
+SHARED_CONST(uint, kPhaseTabulated, 4u);             // piecewise linear in mu
 
 // Bits of Medium.flags.
 SHARED_CONST(uint, kMediumHomogeneous, 1u);
 SHARED_CONST(uint, kMediumAlbedoGrid, 2u);
 SHARED_CONST(uint, kMediumBricked, 4u);
+SHARED_CONST(uint, kMediumColorDensity, 8u);  // three values a voxel, interleaved: density of each channel
 
 // Extinction of channel c at p is sigmaMax * sigmaRatio[c] * density(p).
 struct Medium {
@@ -97,10 +129,14 @@ struct Medium {
     uint albedoOffset;        // first texel (rgba) in `albedoVoxels`
     uint phase;               // kPhase*
     uint flags;               // kMedium*
+    float g2;                 // dual: mean cosine of the second lobe
+    float lobeWeight;         // dual: probability of the first lobe
+    uint phaseOffset;         // tabulated: first entry in `phaseTable`
+    uint phaseCount;          // tabulated: intervals of mu
     uint reserved0;
     uint reserved1;
 };
-SHARED_LAYOUT(Medium, 192);
+SHARED_LAYOUT(Medium, 208);
 
 SHARED_CONST(uint, kVoxelsPerCell, 8u);   // majorant cells and bricks are 8^3 voxels
 SHARED_CONST(uint, kEmptyBrick, 0xffffffffu);
@@ -110,7 +146,9 @@ SHARED_CONST(uint, kLightPoint, 1u);
 SHARED_CONST(uint, kLightQuad, 2u);
 SHARED_CONST(uint, kLightSphere, 3u);
 SHARED_CONST(uint, kLightMesh, 4u);
-SHARED_CONST(uint, kLightEnvironment, 5u);
+SHARED_CONST(uint, kLightEnvironment, 5u);     // constant
+SHARED_CONST(uint, kLightEnvironmentMap, 6u);
+SHARED_CONST(uint, kLightSky, 7u);
 
 // Lights that next-event estimation samples come first.
 struct Light {
@@ -123,7 +161,7 @@ struct Light {
     float area;         // mesh: total area; others 0
     uint triangleCount; // mesh: number of triangles; their running area fractions start at cdfOffset
     uint cdfOffset;     // mesh: first entry in `lightTriangleCdf` (last entry exactly 1)
-    uint reserved0;
+    uint texture;       // area lights: index into the textures, which `emission` then tints, or kNone
     uint reserved1;
     uint reserved2;
 };
@@ -141,6 +179,36 @@ struct Camera {
 };
 SHARED_LAYOUT(Camera, 48);
 
+// Latitude-longitude map, Mitsuba's `envmap`: in local space (+y up) u = atan2(x, -z) / 2 pi, columns centred on (i + 1/2) /
+// width and periodic; v = acos(y) / pi, rows at j / (height - 1), so that the first and the last row are the poles.
+struct EnvironmentMap {
+    vec3 localX;       // rows of the rotation world -> local
+    uint width;        // texels
+    vec3 localY;
+    uint height;
+    vec3 localZ;
+    uint reserved;
+};
+SHARED_LAYOUT(EnvironmentMap, 48);
+
+// Gradient sky with stars: t = clamp((t_raw + offset - 1/2) / width + 1/2, 0, 1)^power, t_raw = (dot(d, axis) + 1) / 2,
+// L = (1 - t) bottom + t top.
+struct Sky {
+    vec3 axis;             // unit
+    float offset;
+    vec3 bottom;           // radiance
+    float width;           // 0: a step
+    vec3 top;
+    float power;
+    vec3 starRadiance;     // of a star of brightness 1
+    uint starCells;        // per axis of the lookup grid; 0: no stars
+    float starSelection;   // probability that sampling picks a star rather than the gradient
+    uint starCount;
+    uint bandCount;        // bands of equal height in dot(d, axis) that sampling chooses from
+    uint reserved;
+};
+SHARED_LAYOUT(Sky, 80);
+
 // The uniform block: everything small.
 struct SceneConstants {
     Camera camera;
@@ -153,7 +221,12 @@ struct SceneConstants {
     uint environment;       // light index of the environment, or kNone
     uint maxDepth;          // Mitsuba's max_depth; 0xffffffff: unlimited
     uint rouletteDepth;     // Mitsuba's rr_depth
-    vec3 environmentRadiance;  // of lights[environment]; 0 without one
+    vec3 environmentRadiance;  // of lights[environment], where that is constant; 0 otherwise
+    float emitterSamples;      // direct lighting: samples of lights and of scattering that the weights assume
+    float scatterSamples;
+    uint textureCount;
+    EnvironmentMap environmentMap;
+    Sky sky;
     Quad quads[kMaxQuads];
     Sphere spheres[kMaxSpheres];
     Box boxes[kMaxBoxes];
@@ -161,7 +234,7 @@ struct SceneConstants {
     Light lights[kMaxLights];
     Shape shapes[kMaxInlineShapes];  // the first of the shapes, a copy
 };
-SHARED_LAYOUT(SceneConstants, 48 + 48 + 64 * 96 + 256 * 32 + 64 * 64 + 16 * 192 + 256 * 64 + 8 * 32);
+SHARED_LAYOUT(SceneConstants, 48 + 60 + 48 + 80 + 64 * 96 + 256 * 64 + 64 * 64 + 16 * 208 + 256 * 64 + 8 * 32);
 
 // BVH: four texels per inner node: (min0, child0) (max0, 0) (min1, child1) (max1, 0), children
 // bit-cast ints. child >= 0: inner node; child < 0: leaf ~((firstTriangle << 3) | count), count in
@@ -173,6 +246,7 @@ SHARED_CONST(int, kBvhEnd, 0x7fffffff);
 // Triangles: three texels, xyz vertex; w of the first: shape index bit-cast.
 SHARED_CONST(uint, kTriangleTexels, 3u);
 // Vertex normals: three texels a triangle; all zero where the triangle is flat.
+// Texture coordinates: three pairs a triangle, (u, v) of its vertices.
 
 SHARED_END
 

@@ -5,5 +5,7 @@
 
 void probeItem() {
     uvec2 range = floatBitsToUint(probeInput(0u).xy);
-    probeOutput(0u, uintBitsToFloat(uvec4(firstAbove(range.x, range.y, probeInput(0u).z))));
+    if (probeFunction == 0u) probeOutput(0u, uintBitsToFloat(uvec4(firstAbove(range.x, range.y, probeInput(0u).z))));
+    if (probeFunction == 1u)
+        probeOutput(0u, uintBitsToFloat(uvec4(sampleAlias(range.x, range.y, floatBitsToUint(probeInput(0u).z)))));
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compile/alias_table.h"
 #include "support/parity_report.h"
 #include "support/scene_probe.h"
 #include "support/stress.h"
@@ -67,6 +68,32 @@ TEST(DistributionParity, FindsTheSameEntryOfALargeTableH44) {
     test::ErrorMeter error;
     for (std::size_t i = 0; i < exact.size(); ++i) error.add(naive[i], exact[i], 1);
     EXPECT_GT(error.worst(), 2 * (1 << 24) / double(exact.size()));  // steps off by two average entries
+}
+
+TEST(DistributionParity, AliasTablesHaveTheSameOutcomeForEveryWord) {
+    for (const std::uint32_t count : {1u, 2u, 3u, 255u, 1000u}) {
+        std::vector<double> weights(count);
+        Stress stress(count);
+        for (double& weight : weights) weight = stress.word() % 3 == 0 ? 0.0 : stress.magnitude(1e-6f, 1);
+        weights.back() = 1;
+        const AliasTable table = buildAliasTable(weights);
+        CompiledScene scene;
+        scene.aliasTable.assign(5, glm::uvec2(0));  // of a table before
+        scene.aliasTable.insert(scene.aliasTable.end(), table.entries.begin(), table.entries.end());
+        std::vector<glm::vec4> inputs;
+        for (int i = 0; i < 20'000; ++i)
+            inputs.emplace_back(glm::uintBitsToFloat(5), glm::uintBitsToFloat(count),
+                                glm::uintBitsToFloat(i == 0   ? 0u
+                                                     : i == 1 ? 0xffffffffu
+                                                              : stress.word()),
+                                0);
+        const auto outputs = test::SceneProbe(scene).run("parity/distribution.comp", 1, inputs);
+        Parity parity("sampling/distribution", "sampleAlias", 0);
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            const std::uint32_t expected = reference::sampleAlias(table.entries, glm::floatBitsToUint(inputs[i].z));
+            EXPECT_TRUE(parity.equal(glm::floatBitsToUint(outputs[i].x), expected)) << "count " << count;
+        }
+    }
 }
 
 }  // namespace

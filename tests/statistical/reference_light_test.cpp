@@ -88,6 +88,7 @@ TEST(ReferenceLight, PointAndDirectionalLightsFollowTheirLaws) {  // H63
     for (const bool isPoint : {true, false}) {
         HandScene scene = floorScene(glm::vec3(0.8f));
         shared::Light light{};
+        light.texture = shared::kNone;
         light.type = isPoint ? shared::kLightPoint : shared::kLightDirectional;
         light.emission = glm::vec3(5);
         light.vector = isPoint ? glm::vec3(3, 0, 3) : glm::vec3(-0.6f, 0, -0.8f);

@@ -26,6 +26,7 @@ glm::vec3 anyPerpendicular(glm::vec3 v) {
 }  // namespace
 
 HandScene::HandScene() {
+    scene.constants.emitterSamples = scene.constants.scatterSamples = 1.0f;
     scene.constants.environment = kNone;
     scene.constants.maxDepth = kNone;
     scene.constants.rouletteDepth = kNone;
@@ -82,11 +83,11 @@ std::uint32_t HandScene::addShape(const shared::Shape& shape) {
 }
 
 std::uint32_t HandScene::addNull(std::uint32_t interior, std::uint32_t exterior) {
-    return addShape({glm::vec3(0), shared::kShapeNull, interior, exterior, kNone, 0});
+    return addShape({glm::vec3(0), shared::kShapeNull, interior, exterior, kNone, kNone});
 }
 
 std::uint32_t HandScene::addDiffuse(glm::vec3 reflectance, std::uint32_t flags) {
-    return addShape({reflectance, flags, kNone, kNone, kNone, 0});
+    return addShape({reflectance, flags, kNone, kNone, kNone, kNone});
 }
 
 std::uint32_t HandScene::addQuad(glm::vec3 corner, glm::vec3 edgeU, glm::vec3 edgeV, std::uint32_t shape) {
@@ -105,7 +106,14 @@ std::uint32_t HandScene::addQuad(glm::vec3 corner, glm::vec3 edgeU, glm::vec3 ed
 }
 
 std::uint32_t HandScene::addSphere(glm::vec3 center, float radius, std::uint32_t shape) {
-    scene.constants.spheres[scene.constants.sphereCount] = {center, radius, shape, scene.shapes[shape].flags, 0, 0};
+    shared::Sphere& sphere = scene.constants.spheres[scene.constants.sphereCount] = {};
+    sphere.center = center;
+    sphere.radius = radius;
+    sphere.shape = shape;
+    sphere.flags = scene.shapes[shape].flags;
+    sphere.axisX = {1, 0, 0};
+    sphere.axisZ = {0, 0, 1};
+    sphere.handedness = 1;
     return scene.constants.quadCount + scene.constants.sphereCount++;
 }
 
@@ -143,6 +151,7 @@ void HandScene::setEnvironment(glm::vec3 radiance) {
 }
 
 void HandScene::addLight(shared::Light light, bool isSampled) {
+    light.texture = kNone;
     scene.constants.lights[scene.constants.lightCount++] = light;
     sampled_.push_back(isSampled);
     const auto count = float(std::count(sampled_.begin(), sampled_.end(), true));

@@ -5,6 +5,7 @@
 
 #include "gpu/pipeline.h"
 #include "gpu/spirv_interface.h"
+#include "shared/cloud_types.h"
 #include "shared/path_types.h"
 #include "shared/scene_types.h"
 #include "support/temporary_folder.h"
@@ -20,6 +21,7 @@ std::string shaderStoring(const std::string& type) {
            "#extension GL_EXT_scalar_block_layout : require\n"
            "#include \"shared/scene_types.h\"\n"
            "#include \"shared/path_types.h\"\n"
+           "#include \"shared/cloud_types.h\"\n"
            "layout(local_size_x = 1) in;\n"
            "struct Followed { " +
            type +
@@ -70,8 +72,9 @@ TEST(SharedLayout, PathArgumentsAreTheSameInBothLanguages) {
 
 TEST(SharedLayout, ShapeIsTheSameInBothLanguages) {
     using Type = shared::Shape;
-    expectLayout("Shape", sizeof(Type),
-                 {MEMBER(reflectance), MEMBER(flags), MEMBER(interior), MEMBER(exterior), MEMBER(light)});
+    expectLayout(
+        "Shape", sizeof(Type),
+        {MEMBER(reflectance), MEMBER(flags), MEMBER(interior), MEMBER(exterior), MEMBER(light), MEMBER(texture)});
 }
 
 TEST(SharedLayout, QuadIsTheSameInBothLanguages) {
@@ -83,7 +86,9 @@ TEST(SharedLayout, QuadIsTheSameInBothLanguages) {
 
 TEST(SharedLayout, SphereIsTheSameInBothLanguages) {
     using Type = shared::Sphere;
-    expectLayout("Sphere", sizeof(Type), {MEMBER(center), MEMBER(radius), MEMBER(shape), MEMBER(flags)});
+    expectLayout("Sphere", sizeof(Type),
+                 {MEMBER(center), MEMBER(radius), MEMBER(shape), MEMBER(flags), MEMBER(axisX), MEMBER(axisZ),
+                  MEMBER(handedness)});
 }
 
 TEST(SharedLayout, BoxIsTheSameInBothLanguages) {
@@ -96,14 +101,44 @@ TEST(SharedLayout, MediumIsTheSameInBothLanguages) {
     expectLayout("Medium", sizeof(Type),
                  {MEMBER(gridFromWorld), MEMBER(sigmaRatio), MEMBER(sigmaMax), MEMBER(albedo), MEMBER(g),
                   MEMBER(resolution), MEMBER(voxelOffset), MEMBER(cells), MEMBER(cellOffset), MEMBER(albedoFromWorld),
-                  MEMBER(albedoResolution), MEMBER(albedoOffset), MEMBER(phase), MEMBER(flags)});
+                  MEMBER(albedoResolution), MEMBER(albedoOffset), MEMBER(phase), MEMBER(flags), MEMBER(g2),
+                  MEMBER(lobeWeight), MEMBER(phaseOffset), MEMBER(phaseCount)});
 }
 
 TEST(SharedLayout, LightIsTheSameInBothLanguages) {
     using Type = shared::Light;
     expectLayout("Light", sizeof(Type),
                  {MEMBER(emission), MEMBER(type), MEMBER(vector), MEMBER(primitive), MEMBER(selection),
-                  MEMBER(cumulative), MEMBER(area), MEMBER(triangleCount), MEMBER(cdfOffset)});
+                  MEMBER(cumulative), MEMBER(area), MEMBER(triangleCount), MEMBER(cdfOffset), MEMBER(texture)});
+}
+
+TEST(SharedLayout, TextureIsTheSameInBothLanguages) {
+    using Type = shared::Texture;
+    expectLayout("Texture", sizeof(Type),
+                 {MEMBER(transformU), MEMBER(transformV), MEMBER(translation), MEMBER(flags), MEMBER(offset),
+                  MEMBER(size), MEMBER(color0), MEMBER(color1)});
+}
+
+TEST(SharedLayout, EnvironmentMapIsTheSameInBothLanguages) {
+    using Type = shared::EnvironmentMap;
+    expectLayout("EnvironmentMap", sizeof(Type),
+                 {MEMBER(localX), MEMBER(width), MEMBER(localY), MEMBER(height), MEMBER(localZ)});
+}
+
+TEST(SharedLayout, SkyIsTheSameInBothLanguages) {
+    using Type = shared::Sky;
+    expectLayout(
+        "Sky", sizeof(Type),
+        {MEMBER(axis), MEMBER(offset), MEMBER(bottom), MEMBER(width), MEMBER(top), MEMBER(power), MEMBER(starRadiance),
+         MEMBER(starCells), MEMBER(starSelection), MEMBER(starCount), MEMBER(bandCount)});
+}
+
+TEST(SharedLayout, CloudFieldIsTheSameInBothLanguages) {
+    using Type = shared::CloudField;
+    expectLayout(
+        "CloudField", sizeof(Type),
+        {MEMBER(detailAmount), MEMBER(noiseScale), MEMBER(warpAmount), MEMBER(erosionAmount), MEMBER(surfaceWidth),
+         MEMBER(densityScale), MEMBER(densityThreshold), MEMBER(noiseSeed), MEMBER(resolution), MEMBER(modulates)});
 }
 
 TEST(SharedLayout, CameraIsTheSameInBothLanguages) {
@@ -115,17 +150,35 @@ TEST(SharedLayout, CameraIsTheSameInBothLanguages) {
 TEST(SharedLayout, SceneConstantsAreTheSameInBothLanguages) {
     using Type = shared::SceneConstants;
     expectLayout("SceneConstants", sizeof(Type),
-                 {MEMBER(camera), MEMBER(quadCount), MEMBER(sphereCount), MEMBER(boxCount), MEMBER(triangleCount),
-                  MEMBER(mediumCount), MEMBER(lightCount), MEMBER(environment), MEMBER(maxDepth), MEMBER(rouletteDepth),
-                  MEMBER(environmentRadiance), MEMBER(quads), MEMBER(spheres), MEMBER(boxes), MEMBER(media),
-                  MEMBER(lights), MEMBER(shapes)});
+                 {MEMBER(camera),
+                  MEMBER(quadCount),
+                  MEMBER(sphereCount),
+                  MEMBER(boxCount),
+                  MEMBER(triangleCount),
+                  MEMBER(mediumCount),
+                  MEMBER(lightCount),
+                  MEMBER(environment),
+                  MEMBER(maxDepth),
+                  MEMBER(rouletteDepth),
+                  MEMBER(environmentRadiance),
+                  MEMBER(emitterSamples),
+                  MEMBER(scatterSamples),
+                  MEMBER(textureCount),
+                  MEMBER(environmentMap),
+                  MEMBER(sky),
+                  MEMBER(quads),
+                  MEMBER(spheres),
+                  MEMBER(boxes),
+                  MEMBER(media),
+                  MEMBER(lights),
+                  MEMBER(shapes)});
 }
 
 #undef MEMBER
 
 /// A struct added to shaders/shared must be added above.
 TEST(SharedLayout, EveryStructIsCompared) {
-    constexpr int kCompared = 11;
+    constexpr int kCompared = 15;
     int declared = 0;
     for (const auto& entry : std::filesystem::directory_iterator(gpu::shaderFolder() / "shared")) {
         std::ifstream lines(entry.path());
