@@ -11,6 +11,12 @@ CLI::App* addCompareCommand(CLI::App& program, CompareArguments& arguments) {
         ->add_option("--error", arguments.error,
                      "write the differences to this .exr; beside it a .png of |A - B|, 1 being the mean of B")
         ->type_name("FILE");
+    command
+        ->add_option("--pictures", arguments.pictures,
+                     "write PREFIX_a.png, PREFIX_b.png, PREFIX_error.png (A - B, mean of the channels: red above, blue "
+                     "below; full colour at a tenth of the mean of B) and, with noise estimates, PREFIX_z.png (full "
+                     "colour at 4 deviations)")
+        ->type_name("PREFIX");
     addNumberOption(*command, "--max-mse", arguments.maxMse, 0, kMax, "fail above this mean squared error");
     addNumberOption(*command, "--max-mae", arguments.maxMae, 0, kMax, "fail above this mean absolute error");
     addNumberOption(*command, "--max-error", arguments.maxError, 0, kMax, "fail above this largest absolute error");

@@ -107,6 +107,34 @@ Image errorPicture(const Image& error, const ImageComparison& comparison) {
     return picture;
 }
 
+/// Mean over the three channels of `layer`.
+std::vector<float> channelMean(const Image& image, const std::string& layer) {
+    std::vector<float> mean(std::size_t(image.size.x) * image.size.y, 0.0f);
+    for (const char* channel : {"R", "G", "B"}) {
+        const std::vector<float>& values = image.channels.at(fmt::format("{}.{}", layer, channel));
+        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += values[i] / 3.0f;
+    }
+    return mean;
+}
+
+/// What --pictures asks for. z is the largest in magnitude of a pixel's channels.
+void writePictures(const std::string& prefix, const Image& a, const Image& b, const Image& error,
+                   const ImageComparison& comparison) {
+    double mean = 0;
+    for (const ChannelMeans& means : comparison.channels)
+        mean += means.meanB / static_cast<double>(comparison.channels.size());
+    writePng(prefix + "_a.png", a);
+    writePng(prefix + "_b.png", b);
+    writeSignedPng(prefix + "_error.png", error.size, channelMean(error, "error"), mean > 0 ? 0.1 * mean : 1.0);
+    if (!error.has("z.R")) return;
+    std::vector<float> z = error.channels.at("z.R");
+    for (const char* channel : {"z.G", "z.B"}) {
+        const std::vector<float>& other = error.channels.at(channel);
+        for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::abs(other[i]) > std::abs(z[i]) ? other[i] : z[i];
+    }
+    writeSignedPng(prefix + "_z.png", error.size, z, 4.0);
+}
+
 struct ErrorFiles {
     fs::path exr, png;
 };
@@ -132,6 +160,10 @@ int runCompareCommand(const CompareArguments& arguments) {
         const auto lock = interruption.holdOff();
         writeExr(files->exr, error);
         writePng(files->png, errorPicture(error, comparison));
+    }
+    if (!arguments.pictures.empty()) {
+        const auto lock = interruption.holdOff();
+        writePictures(arguments.pictures, a, b, errorImage(a, b), comparison);
     }
     const std::vector<Verdict> verdicts = judge(arguments, comparison);
     bool passed = true;

@@ -9,7 +9,8 @@ namespace parhelion::app {
 
 struct CompareArguments {
     std::string imageA, imageB;
-    std::string error;  ///< EXR to write, or empty
+    std::string error;     ///< EXR to write, or empty
+    std::string pictures;  ///< prefix of PNGs to write, or empty
     std::optional<double> maxMse, maxMae, maxError, maxRelativeMse, maxMeanDifference;
     bool requireAgreement = false;
     bool json = false;

@@ -53,13 +53,17 @@ void addQualityOptions(CLI::App& command, RenderArguments& arguments) {
     addChoiceOption<bool, bool>(
         command, "--nee", arguments.sampleEveryLight, {{"auto", false}, {"all", true}},
         "aim rays at the lights that gain from it (default auto), or at the constant environment too");
+    addChoiceOption<bool, bool>(
+        command, "--sampler", arguments.quality.sobol, {{"sobol", true}, {"independent", false}},
+        "random numbers: Owen-scrambled Sobol points (default; the variance in the EXR is then an "
+        "upper bound), or independent ones");
     addChoiceOption<bool, bool>(command, "--density-filter", arguments.quality.stochasticFilter,
                                 {{"stochastic", true}, {"trilinear", false}},
                                 "one random corner per density lookup (default), or all eight");
     addNumberOption(command, "--shadow-roulette", arguments.quality.shadowRoulette, 0, 1e6,
                     "threshold of the shadow rays' roulette, relative to 4 pi times the scattering value (default 3)");
     addIntegerOption(command, "--steps-per-event", arguments.stepsPerEvent, 1, 1024,
-                     "tracking steps between two event evaluations (default 6): speed only");
+                     "tracking steps between two event evaluations (default 4): speed only");
 }
 
 }  // namespace

@@ -39,4 +39,10 @@ void writeExr(const std::filesystem::path& file, const Image& image);
 /// @throws InputError for missing channels, more than 64 stops either way, or a file that cannot be created.
 void writePng(const std::filesystem::path& file, const Image& image, double exposureStops = 0.0);
 
+/// Writes a signed quantity as an 8-bit sRGB PNG: white at 0, red at `range` and above, blue at -range and below; NaN
+/// green.
+/// @param values  one a pixel, row by row from the top.
+/// @throws InputError if the file cannot be created.
+void writeSignedPng(const std::filesystem::path& file, glm::uvec2 size, std::span<const float> values, double range);
+
 }  // namespace parhelion

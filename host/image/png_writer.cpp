@@ -50,22 +50,43 @@ void appendBytes(void* target, void* data, int size) {
                                                          bytes + size);
 }
 
+/// From blue over white to red, for x in [-1, 1].
+std::array<std::uint8_t, 3> divergingColour(double x) {
+    if (std::isnan(x)) return {0, 160, 0};
+    constexpr std::array<glm::dvec3, 2> kEnds{glm::dvec3(33, 102, 172), glm::dvec3(178, 24, 43)};  // ColorBrewer RdBu
+    const double share = std::min(std::abs(x), 1.0);
+    const glm::dvec3 colour = glm::mix(glm::dvec3(255), kEnds[x > 0], share);
+    return {std::uint8_t(std::lround(colour.r)), std::uint8_t(std::lround(colour.g)),
+            std::uint8_t(std::lround(colour.b))};
+}
+
+void encodePng(const std::filesystem::path& file, glm::uvec2 size, const std::vector<std::uint8_t>& pixels) {
+    // The encoder counts bytes in an int.
+    if ((3.0 * size.x + 1) * size.y > std::numeric_limits<int>::max())
+        throw InputError(fmt::format("a PNG must have fewer than 2^31 bytes; got {} x {} pixels", size.x, size.y));
+    std::vector<std::byte> content;
+    const int width = static_cast<int>(size.x), height = static_cast<int>(size.y);
+    if (stbi_write_png_to_func(appendBytes, &content, width, height, 3, pixels.data(), 3 * width) == 0)
+        throw RuntimeFailure(fmt::format("cannot encode '{}' as PNG", file.string()));
+    writeAtomically(file, content);
+}
+
 }  // namespace
+
+void writeSignedPng(const std::filesystem::path& file, glm::uvec2 size, std::span<const float> values, double range) {
+    std::vector<std::uint8_t> pixels;
+    pixels.reserve(3 * values.size());
+    for (const float value : values)
+        for (const std::uint8_t byte : divergingColour(value / range)) pixels.push_back(byte);
+    encodePng(file, size, pixels);
+}
 
 void writePng(const std::filesystem::path& file, const Image& image, double exposureStops) {
     if (!(std::abs(exposureStops) <= kMaxExposureStops))
         throw InputError(
             fmt::format("exposure must be in [-{0}, {0}] stops; got {1}", kMaxExposureStops, exposureStops));
-    // The encoder counts bytes in an int.
-    if ((3.0 * image.size.x + 1) * image.size.y > std::numeric_limits<int>::max())
-        throw InputError(
-            fmt::format("a PNG must have fewer than 2^31 bytes; got {} x {} pixels", image.size.x, image.size.y));
     const std::vector<std::uint8_t> pixels = displayBytes(image, exposureStops);
-    std::vector<std::byte> content;
-    const int width = static_cast<int>(image.size.x), height = static_cast<int>(image.size.y);
-    if (stbi_write_png_to_func(appendBytes, &content, width, height, 3, pixels.data(), 3 * width) == 0)
-        throw RuntimeFailure(fmt::format("cannot encode '{}' as PNG", file.string()));
-    writeAtomically(file, content);
+    encodePng(file, image.size, pixels);
 }
 
 }  // namespace parhelion

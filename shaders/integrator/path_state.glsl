@@ -10,7 +10,7 @@ struct Path {
     Ray ray;
     Hit hit;               // ahead on the ray: the end of the segment
     Segment segment;
-    uvec2 key;
+    Stream stream;
     uint vertex;           // scatterings so far
     uint sampleIndex;      // within the window
     vec3 beta;             // throughput

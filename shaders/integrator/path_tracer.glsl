@@ -61,13 +61,13 @@ void startRay(inout Path p, bool shadow, DirectLight light, uvec2 shadowExponent
 void keyPath(inout Path p, uint pixelIndex, PathArguments arguments) {
     uint low = arguments.sampleLow + p.sampleIndex;
     uint high = arguments.sampleHigh + (low < arguments.sampleLow ? 1u : 0u);
-    p.key = pathKey(pixelIndex, low, high, arguments.seed);
+    p.stream = streamOf(pixelIndex, low, high, arguments.seed);
 }
 
 // Puts a new path on the camera, ready for its first flight.
 void startPath(inout Path p, uint pixelIndex, uvec2 pixel, PathArguments arguments) {
     keyPath(p, pixelIndex, arguments);
-    uvec4 word = draw(p.key, 0u, kDrawCamera);
+    uvec4 word = drawStratified(p.stream, 0u, kDrawCamera);
     p.segment.hero = min(uint(3.0 * toUniform(word.w)), 2u);
     p.segment.ratio = vec3(1.0);
     p.vertex = 0u;
@@ -120,7 +120,7 @@ void trackSegment(inout Path p, inout Counts counts) {
     if (hasHeterogeneousMedia) ray = gridRay(medium, p.ray.origin, p.ray.direction, p.segment.cell);
     for (uint i = 0u; i < stepsPerEvent && p.segment.state == kTracking; ++i) {
         uint before = p.segment.collisions;
-        stepSegment(p.segment, medium, ray, p.key, p.vertex, counts.violations);
+        stepSegment(p.segment, medium, ray, p.stream.key, p.vertex, counts.violations);
         ++counts.steps;
         counts.collisions += p.segment.collisions - before;
     }

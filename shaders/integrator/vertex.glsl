@@ -31,7 +31,7 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
     ++p.vertex;
     ++counts.vertices;
     p.beta *= v.factor;
-    uvec4 word = draw(p.key, p.vertex, kDrawScatter);
+    uvec4 word = drawStratified(p.stream, p.vertex, kDrawScatter);
     float largest = maxComponent(spectralBeta(p));
     // Far below what a film resolves, roulette at any depth: throughput must not sink into denormals (H37).
     float survival = p.vertex >= rouletteDepth || largest < 1e-20 ? clamp(largest, 0.05, 1.0) : 1.0;
@@ -43,8 +43,8 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
     p.nextExponential = uvec2(word.z, spareBits(word.x, word.y, word.w));
     bool shadow = false;
     if (hasDeltaLights || hasAreaLights || hasEnvironmentSampling) {
-        uvec4 choice = draw(p.key, p.vertex, kDrawLight);
-        vec3 u = vec3(toUniform(choice.x), toUniform(choice.y), toUniform(choice.z));
+        uvec4 choice = drawStratified(p.stream, p.vertex, kDrawLight);
+        vec3 u = vec3(toUniform(choice.z), toUniform(choice.x), toUniform(choice.y));
         float largestFactor = v.scatterer.surface ? maxComponent(v.factor) : 1.0;
         light = estimateDirect(v.scatterer, p.vertexPosition, u, largestFactor, counts.tests);
         p.pending = spectralBeta(p) * light.contribution;
@@ -76,7 +76,7 @@ Vertex mediumVertex(inout Path p) {
     p.vertexInside = p.ray.inside;
     vec3 corner = vec3(0.0);
     if (hasAlbedoGrids) {
-        uvec4 word = draw(p.key, p.vertex + 1u, kDrawAlbedo);
+        uvec4 word = draw(p.stream.key, p.vertex + 1u, kDrawAlbedo);
         corner = vec3(toUniform(word.x), toUniform(word.y), toUniform(word.z));
     }
     float g = hasHenyeyGreenstein && medium.phase == kPhaseHenyeyGreenstein ? medium.g : 0.0;

@@ -1,8 +1,10 @@
 // Counter-based random numbers: every draw is a pure function of (path, vertex, purpose), so that
-// leaving an effect out shifts no other draw. Dimensions are named in shared/path_types.h.
+// leaving an effect out shifts no other draw. Purposes are named in shared/path_types.h.
+// Draws with a fixed number of uses a vertex may be stratified over the samples of a pixel.
 #ifndef SAMPLING_SAMPLER_GLSL
 #define SAMPLING_SAMPLER_GLSL
 
+#include "core/effects.glsl"
 #include "core/math.glsl"
 
 // Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d.
@@ -26,6 +28,55 @@ uvec2 pathKey(uint pixel, uint sampleLow, uint sampleHigh, uint seed) {
 }
 
 uvec4 draw(uvec2 key, uint vertex, uint purpose) { return pcg4d(uvec4(key, vertex, purpose)); }
+
+// What names a pixel's scrambled points; all its samples share it.
+uvec2 pixelKey(uint pixel, uint sampleHigh, uint seed) { return pcg4d(uvec4(pixel, 0u, sampleHigh, seed)).zw; }
+
+// A random permutation of the tree of binary digits, the lowest bit being the root (Laine and Karras 2011,
+// constants of Vegdahl 2021, "Building a Better LK Hash").
+uint permuteDigits(uint x, uint seed) {
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16u) | 1u;
+    x ^= x * 0x05526c56u;
+    return x ^ (x * 0x53a22864u);
+}
+
+// Second component of Sobol' point `index`, lowest bit first: the generator matrix is Pascal's triangle
+// modulo 2, a product of five butterflies.
+uint sobolDigits(uint index) {
+    index ^= (index & 0xaaaaaaaau) >> 1u;
+    index ^= (index & 0xccccccccu) >> 2u;
+    index ^= (index & 0xf0f0f0f0u) >> 4u;
+    index ^= (index & 0xff00ff00u) >> 8u;
+    return index ^ (index >> 16u);
+}
+
+// One Owen-scrambled Sobol' point (a (0, 2)-sequence) with its index shuffled, so that any two pairs of a path
+// are independent and each is stratified over the samples (Burley 2020, "Practical Hash-based Owen Scrambling").
+uvec2 sobolPair(uint reversedIndex, uvec2 seed) {
+    uint index = bitfieldReverse(permuteDigits(reversedIndex, seed.x ^ seed.y));
+    return uvec2(bitfieldReverse(permuteDigits(index, seed.x)), bitfieldReverse(permuteDigits(sobolDigits(index), seed.y)));
+}
+
+// What a path draws from.
+struct Stream {
+    uvec2 key;           // pathKey
+    uvec2 pixelKey;
+    uint reversedIndex;  // low word of the sample's index, its bits reversed
+};
+
+Stream streamOf(uint pixel, uint sampleLow, uint sampleHigh, uint seed) {
+    return Stream(pathKey(pixel, sampleLow, sampleHigh, seed), pixelKey(pixel, sampleHigh, seed),
+                  bitfieldReverse(sampleLow));
+}
+
+// As draw; with the quality `sobol`, (x, y) and (z, w) are each stratified over the pixel's samples.
+uvec4 drawStratified(Stream stream, uint vertex, uint purpose) {
+    if (!sobol) return draw(stream.key, vertex, purpose);
+    uvec4 seeds = draw(stream.pixelKey, vertex, purpose);
+    return uvec4(sobolPair(stream.reversedIndex, seeds.xy), sobolPair(stream.reversedIndex, seeds.zw));
+}
 
 // In [0, 1): multiples of 2^-24, never 1.
 float toUniform(uint word) { return float(word >> 8u) * 5.9604644775390625e-8; }

@@ -135,12 +135,12 @@ TEST(MediumOverFloor, EndsAtTheFloor) {  // H49: the box goes on below
     RunningMoments reached;
     using Kind = reference::FlightEnd<float>::Kind;
     for (std::uint32_t i = 0; i < 300'000; ++i) {
-        const glm::uvec2 key = reference::pathKey(i, 0, 0, 0);
-        const reference::PathContext<float, reference::NoTrace> path{view, quality, key, 0, counters, trace};
+        const reference::Stream stream = reference::streamOf(i, 0, 0, 0);
+        const reference::PathContext<float, reference::NoTrace> path{view, quality, stream, 0, counters, trace};
         reference::PathState<float> state;
         state.ray.origin = glm::vec3(0);
         state.ray.direction = glm::normalize(glm::vec3(0.3f, 0.2f, -1));
-        const glm::uvec4 words = reference::draw(key, 0, 0);
+        const glm::uvec4 words = reference::draw(stream.key, 0, 0);
         state.residual = {reference::exponential<float>(words.z, words.w >> 8)};
         const reference::FlightEnd<float> end = fly(path, state);
         ASSERT_NE(end.kind, Kind::Escape);

@@ -18,7 +18,7 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/sampler.comp";
-enum Function : std::uint32_t { kHashes, kNumbers };
+enum Function : std::uint32_t { kHashes, kNumbers, kPoints };
 
 std::vector<glm::uvec4> words() {
     std::vector<glm::uvec4> words;
@@ -52,6 +52,31 @@ TEST(SamplerParity, HashesAgreeToTheBit) {
         }
         for (int c = 0; c < 2; ++c) EXPECT_TRUE(key.equal(other[c], reference::pathKey(w.x, w.y, w.z, w.w)[c])) << i;
         EXPECT_TRUE(spare.equal(other.z, reference::spareBits(w.x, w.y, w.z))) << i;
+    }
+}
+
+TEST(SamplerParity, ScrambledPointsAgreeToTheBit) {
+    const auto inputs = words();
+    const auto outputs = test::probe(kShader, kPoints, asFloats(inputs), 1, 4);
+    Parity permuted("sampling/sampler", "permuteDigits", 0), digits("sampling/sampler", "sobolDigits", 0),
+        pair("sampling/sampler", "sobolPair", 0), pixel("sampling/sampler", "pixelKey", 0),
+        stream("sampling/sampler", "streamOf", 0), drawn("sampling/sampler", "drawStratified", 0);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const glm::uvec4 w = inputs[i];
+        glm::uvec4 out[4];
+        for (int k = 0; k < 4; ++k) out[k] = glm::floatBitsToUint(outputs[4 * i + k]);
+        EXPECT_TRUE(permuted.equal(out[0].x, reference::permuteDigits(w.x, w.y))) << i;
+        EXPECT_TRUE(digits.equal(out[0].y, reference::sobolDigits(w.x))) << i;
+        const reference::Stream expected = reference::streamOf(w.x, w.y, w.z, w.w);
+        for (int c = 0; c < 2; ++c) {
+            EXPECT_TRUE(pair.equal(out[0][2 + c], reference::sobolPair(w.x, {w.y, w.z})[c])) << i;
+            EXPECT_TRUE(stream.equal(out[1][c], expected.key[c])) << i;
+            EXPECT_TRUE(stream.equal(out[1][2 + c], expected.pixelKey[c])) << i;
+            EXPECT_TRUE(pixel.equal(out[2][1 + c], reference::pixelKey(w.x, w.z, w.w)[c])) << i;
+        }
+        EXPECT_TRUE(stream.equal(out[2].x, expected.reversedIndex)) << i;
+        const glm::uvec4 points = reference::drawStratified(expected, true, w.y % 5, shared::kDrawScatter);
+        for (int c = 0; c < 4; ++c) EXPECT_TRUE(drawn.equal(out[3][c], points[c])) << i;
     }
 }
 

@@ -144,6 +144,9 @@ TEST_F(RenderCommand, CompareJudgesByTheLimitsGiven) {
     EXPECT_GT(mse, 0);
     EXPECT_TRUE(readExr(folder_.path() / "difference.exr").has("error.R"));
     EXPECT_TRUE(folder_.names().contains("difference.png"));
+    run({"compare", "a.exr", "b.exr", "--pictures", "pair"});
+    for (const char* name : {"pair_a.png", "pair_b.png", "pair_error.png", "pair_z.png"})
+        EXPECT_TRUE(folder_.names().contains(name)) << name;
     const auto exitCode = [&](double limit) {
         return runProgram(PARHELION_PROGRAM, {"compare", "a.exr", "b.exr", "--max-mse", std::to_string(limit)},
                           folder_.path())

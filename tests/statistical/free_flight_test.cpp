@@ -145,8 +145,8 @@ TEST(FreeFlight, FollowsAStepBetweenTwoMedia) {  // H38
     RunningMoments distance;
     std::uint64_t firstHalf = 0, flights = 0;
     const auto flight = [&](std::uint32_t i) -> std::optional<float> {
-        const PathContext<float, NoTrace> path{view, quality, pathKey(i, 0, 0, 0), 0, counters, trace};
-        const glm::uvec4 words = draw(path.key, 0, shared::kDrawCamera);
+        const PathContext<float, NoTrace> path{view, quality, streamOf(i, 0, 0, 0), 0, counters, trace};
+        const glm::uvec4 words = draw(path.stream.key, 0, shared::kDrawCamera);
         PathState<float> state;
         state.ray.origin = glm::vec3(0);
         state.ray.direction = {0, 0, 1};

@@ -19,8 +19,8 @@ void expectAgreement(const MitsubaReference& reference, const std::string& proje
 
     AgreementOptions options;
     options.independentPixels = true;  // box filters
-    const ImageAgreement agreement =
-        testAgreement(renderSeeds(backend, scene, reference.samples, kSeeds, 1), image, seeds, options);
+    const ImageAgreement agreement = testAgreement(
+        renderSeeds(backend, scene, reference.samples, kSeeds, 1, reference.sobol), image, seeds, options);
     fmt::print("{} on {}: {}", reference.name, name(backend), describe(agreement));
     EXPECT_TRUE(agreement.agree());
     for (const ChannelAgreement& channel : agreement.channels) {

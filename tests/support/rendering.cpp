@@ -11,11 +11,12 @@ namespace parhelion::test {
 
 const char* name(Backend backend) { return backend == Backend::Vulkan ? "Vulkan" : "Reference"; }
 
-Film renderOn(Backend backend, const CompiledScene& scene, std::uint64_t samples, std::uint32_t seed) {
+Film renderOn(Backend backend, const CompiledScene& scene, std::uint64_t samples, std::uint32_t seed, bool sobol) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.seed = seed;
     settings.featureSamples = 0;
+    settings.quality.sobol = sobol;
     settings.effects = scene.effects;
     if (backend == Backend::Vulkan) return render::render(testDevice(), scene, settings);
     return reference::render<float>(scene, settings);
@@ -42,10 +43,10 @@ std::uint64_t countAnomalies(const Film& film) {
 }
 
 std::vector<Image> renderSeeds(Backend backend, const CompiledScene& scene, std::uint64_t samples, std::size_t seeds,
-                               std::uint32_t firstSeed) {
+                               std::uint32_t firstSeed, bool sobol) {
     std::vector<Image> images;
     for (std::size_t k = 0; k < seeds; ++k)
-        images.push_back(toImage(renderOn(backend, scene, samples, firstSeed + static_cast<std::uint32_t>(k))));
+        images.push_back(toImage(renderOn(backend, scene, samples, firstSeed + static_cast<std::uint32_t>(k), sobol)));
     return images;
 }
 

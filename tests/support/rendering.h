@@ -20,7 +20,9 @@ const char* name(Backend backend);
 inline void PrintTo(Backend backend, std::ostream* stream) { *stream << name(backend); }
 
 /// Renders with the scene's own effects and without the feature pass, on the device of testDevice() or in float.
-Film renderOn(Backend backend, const CompiledScene& scene, std::uint64_t samples, std::uint32_t seed = 0);
+/// @param sobol  stratified samples; otherwise independent ones, whose spread is the error of their mean.
+Film renderOn(Backend backend, const CompiledScene& scene, std::uint64_t samples, std::uint32_t seed = 0,
+              bool sobol = false);
 
 /// Mean over pixels and samples with the standard error that the spread of the samples gives; all samples of a film
 /// are independent with a box filter. For films whose pixels share one expectation.
@@ -31,6 +33,6 @@ std::uint64_t countAnomalies(const Film& film);
 
 /// Images of independent seeds: firstSeed, firstSeed + 1, ...
 std::vector<Image> renderSeeds(Backend backend, const CompiledScene& scene, std::uint64_t samples, std::size_t seeds,
-                               std::uint32_t firstSeed);
+                               std::uint32_t firstSeed, bool sobol = true);
 
 }  // namespace parhelion::test

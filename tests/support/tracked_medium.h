@@ -58,7 +58,7 @@ public:
     /// Distance of the first real collision, or nothing; of path number i.
     std::optional<float> fly(std::uint32_t i, reference::Throughput<float>& throughput) {
         const auto path = context(i);
-        reference::Residual<float> residual = firstResidual(path.key, shared::kDrawCamera);
+        reference::Residual<float> residual = firstResidual(path.stream.key, shared::kDrawCamera);
         return reference::trackFlight(path, medium(), tracked_.ray, tracked_.tEnd, 0, residual, throughput);
     }
     std::optional<float> fly(std::uint32_t i) {
@@ -69,7 +69,7 @@ public:
     /// Estimate of the transmittance per channel by path number i.
     glm::vec3 transmit(std::uint32_t i, float threshold) {
         const auto path = context(i);
-        reference::Residual<float> residual = firstResidual(path.key, shared::kDrawLight);
+        reference::Residual<float> residual = firstResidual(path.stream.key, shared::kDrawLight);
         glm::vec3 weight(1);
         const bool isAlive =
             reference::trackShadow(path, medium(), tracked_.ray, tracked_.tEnd, 1, threshold, residual, weight);
@@ -81,7 +81,7 @@ public:
 
 private:
     reference::PathContext<float, reference::NoTrace> context(std::uint32_t i) {
-        return {view_, quality_, reference::pathKey(i, 0, 0, 0), int(i % 3), counters_, trace_};
+        return {view_, quality_, reference::streamOf(i, 0, 0, 0), int(i % 3), counters_, trace_};
     }
 
     static reference::Residual<float> firstResidual(glm::uvec2 key, std::uint32_t purpose) {

@@ -109,5 +109,24 @@ TEST(PngFile, RefusesMissingChannelsAndWildExposure) {
     EXPECT_TRUE(folder.names().empty());
 }
 
+TEST(SignedPng, ShowsSignAndSize) {
+    const TemporaryFolder folder;
+    const std::string file = (folder.path() / "signed.png").string();
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    writeSignedPng(file, {6, 1}, std::vector<float>{0, 2, 9, -2, -1, nan}, 2.0);
+    int width = 0, height = 0, channels = 0;
+    stbi_uc* bytes = stbi_load(file.c_str(), &width, &height, &channels, 0);
+    ASSERT_NE(bytes, nullptr);
+    ASSERT_EQ(width, 6);
+    const auto at = [&](int i) { return Colour{bytes[3 * i], bytes[3 * i + 1], bytes[3 * i + 2]}; };
+    EXPECT_EQ(at(0), (Colour{255, 255, 255}));
+    EXPECT_GT(at(1)[0], at(1)[2] + 100);  // red
+    EXPECT_EQ(at(2), at(1));              // beyond the range
+    EXPECT_GT(at(3)[2], at(3)[0] + 100);  // blue
+    EXPECT_GT(at(4)[0], at(3)[0]);        // half way to white
+    EXPECT_GT(at(5)[1], at(5)[0] + 100);  // not a number: green
+    stbi_image_free(bytes);
+}
+
 }  // namespace
 }  // namespace parhelion

@@ -5,8 +5,10 @@
 
 Needs `pip install mitsuba numpy` and libllvm19 (DRJIT_LIBLLVM_PATH). Every round runs each renderer
 once; times are medians over rounds. A pass is one sample per pixel; its time is the difference of
-two renders with different sample counts, so that start-up cancels. Variance is that of one sample,
-mean over pixels and channels; "trimmed" leaves out the 0.1 % of pixels with the largest variance.
+two renders with different sample counts, so that start-up cancels. Variance is that of images with
+different seeds, times their samples per pixel, mean over pixels and channels: what a stratified
+sampler gains counts. "Trimmed" leaves out the 0.1 % of pixels with the largest variance; every
+renderer has the same number of images, since fewer images trim more.
 Efficiency is 1 / (variance * time), relative to Mitsuba. Scenes that Mitsuba cannot read (.grid
 volumes) get no row for it, and efficiencies relative to the float reference.
 """
@@ -28,10 +30,13 @@ mi.set_variant("llvm_ad_rgb")
 TRIM = 0.001
 PASSES = {"vulkan": (8, 40), "reference": (2, 10)}
 MITSUBA_PASSES = 4
+VARIANCE_SEEDS = 12
+VARIANCE_SAMPLES = 64  # of Parhelion's images; Mitsuba's samples are independent, whatever their number
 
 
-def mean_variances(variance):
+def mean_variances(images, samples):
     """Mean over pixels and channels, and the same without the noisiest 0.1 % of pixels."""
+    variance = np.var(images, axis=0, ddof=1) * samples
     pixels = np.sort(variance.mean(-1).ravel())
     return pixels.mean(), pixels[: int(len(pixels) * (1 - TRIM))].mean()
 
@@ -42,7 +47,6 @@ class Parhelion:
         self.command = [program, "render", scene, "--size", f"{size}x{size}", "--feature-spp", "1", "--json", "--quiet"]
         self.command += options
         self.passes = PASSES["reference" if "reference" in options else "vulkan"]
-        self.variances = None
 
     def render(self, samples, out, seed):
         run = subprocess.run(self.command + ["--spp", str(samples), "--seed", str(seed), "-o", out],
@@ -56,16 +60,22 @@ class Parhelion:
             start = self.render(few, out, seed)
             end = self.render(many, out, seed)
             self.times.append((end - start) / (many - few))
-            if self.variances is None:
+
+    def variances(self):
+        images = []
+        with tempfile.TemporaryDirectory() as folder:
+            out = str(pathlib.Path(folder) / "a.exr")
+            for seed in range(VARIANCE_SEEDS):
+                self.render(VARIANCE_SAMPLES, out, seed)
                 bitmap = mi.Bitmap(out)
                 names = [field.name for field in bitmap.struct_()]
-                image = np.array(bitmap)
-                self.variances = mean_variances(image[..., [names.index(f"variance.{c}") for c in "RGB"]] * many)
+                images.append(np.array(bitmap)[..., [names.index(c) for c in "RGB"]])
+        return mean_variances(images, VARIANCE_SAMPLES)
 
 
 class Mitsuba:
     def __init__(self, scene, size):
-        self.name, self.times, self.images = "Mitsuba 3.9.1 llvm_ad_rgb", [], []
+        self.name, self.times = "Mitsuba 3.9.1 llvm_ad_rgb", []
         self.scene = mi.load_file(scene, size=size)
         self.render(0)
 
@@ -76,13 +86,11 @@ class Mitsuba:
 
     def round(self, seed):
         for repeat in range(3):
-            seconds, image = self.render(1 + 3 * seed + repeat)
-            self.images.append(image)
+            seconds, _ = self.render(1 + 3 * seed + repeat)
             self.times.append(seconds / MITSUBA_PASSES)
 
-    @property
     def variances(self):
-        return mean_variances(np.var(self.images, axis=0, ddof=1) * MITSUBA_PASSES)
+        return mean_variances([self.render(1000 + seed)[1] for seed in range(VARIANCE_SEEDS)], MITSUBA_PASSES)
 
 
 def benchmark(scene, program, rounds, size):
@@ -96,7 +104,7 @@ def benchmark(scene, program, rounds, size):
     for seed in range(rounds):
         for contender in contenders:
             contender.round(seed)
-    rows = [(c.name, 1e3 * statistics.median(c.times), *c.variances) for c in contenders]
+    rows = [(c.name, 1e3 * statistics.median(c.times), *c.variances()) for c in contenders]
     unit = rows[-1]
     for name, ms, full, trimmed in rows:
         print(f"| {pathlib.Path(scene).stem} | {name} | {ms:.1f} | {full:.3g} | {trimmed:.3g} | "

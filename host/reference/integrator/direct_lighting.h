@@ -80,8 +80,8 @@ Vec3<Real> estimateTransmittance(const PathContext<Real, Trace>& path, Ray<Real>
 /// Next-event estimation: scattered radiance from one light, without albedo or reflectance.
 template <typename Real, typename Trace>
 Vec3<Real> estimateDirect(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex) {
-    const glm::uvec4 words = draw(path.key, vertex.index, shared::kDrawLight);
-    const Vec3<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y), toUniform<Real>(words.z)};
+    const glm::uvec4 words = drawStratified(path.stream, path.quality.sobol, vertex.index, shared::kDrawLight);
+    const Vec3<Real> u{toUniform<Real>(words.z), toUniform<Real>(words.x), toUniform<Real>(words.y)};
     const auto light = sampleLight(path.scene, vertex.position, u);
     if (!light) return Vec3<Real>(0);
     const Real scattering = evalScatterer(vertex, light->direction);

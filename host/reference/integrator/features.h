@@ -8,7 +8,7 @@ namespace parhelion::reference {
 template <typename Real>
 void addFeature(const SceneView<Real>& scene, std::uint32_t seed, glm::uvec2 pixel, std::uint64_t sample,
                 shared::FeaturePixel& sums) {
-    const glm::uvec2 key = keyPath(scene, seed, pixel, sample);
+    const glm::uvec2 key = keyPath(scene, seed, pixel, sample).key;
     Ray<Real> ray = generateRay(scene, pixel, draw(key, 0, shared::kDrawFeature));
     Hit<Real> hit = closestHit(scene, ray);
     while (hit.found() && hit.isNull && crossBoundary(scene, hit, ray)) hit = closestHit(scene, ray);

@@ -31,9 +31,9 @@ FlightEnd<Real> fly(const PathContext<Real, Trace>& path, PathState<Real>& state
 
 /// What the draws of one sample of one pixel are keyed by.
 template <typename Real>
-glm::uvec2 keyPath(const SceneView<Real>& scene, std::uint32_t seed, glm::uvec2 pixel, std::uint64_t sample) {
+Stream keyPath(const SceneView<Real>& scene, std::uint32_t seed, glm::uvec2 pixel, std::uint64_t sample) {
     const std::uint32_t index = pixel.y * scene.source.filmSize.x + pixel.x;
-    return pathKey(index, std::uint32_t(sample), std::uint32_t(sample >> 32), seed);
+    return streamOf(index, std::uint32_t(sample), std::uint32_t(sample >> 32), seed);
 }
 
 /// A path at the camera.
@@ -52,10 +52,10 @@ PathState<Real> startPath(const SceneView<Real>& scene, glm::uvec2 pixel, const 
 template <typename Real, typename Trace>
 Vec3<Real> tracePath(const SceneView<Real>& scene, const Quality& quality, std::uint32_t seed, glm::uvec2 pixel,
                      std::uint64_t sample, Counters& counters, Trace& trace) {
-    const glm::uvec2 key = keyPath(scene, seed, pixel, sample);
-    const glm::uvec4 words = draw(key, 0, shared::kDrawCamera);
+    const Stream stream = keyPath(scene, seed, pixel, sample);
+    const glm::uvec4 words = drawStratified(stream, quality.sobol, 0, shared::kDrawCamera);
     const int hero = std::min(int(3 * toUniform<Real>(words.w)), 2);
-    const PathContext<Real, Trace> path{scene, quality, key, hero, counters, trace};
+    const PathContext<Real, Trace> path{scene, quality, stream, hero, counters, trace};
     PathState<Real> state = startPath(scene, pixel, words);
     bool goesOn = scene.constants.maxDepth > 0;
     while (goesOn) goesOn = handleEvent(path, fly(path, state), state);

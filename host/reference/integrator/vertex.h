@@ -52,7 +52,7 @@ bool scatter(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex, c
     throughput.beta *= albedo;
     const Real largest = maxComponent(throughput.beta);
     if (largest == 0) return false;
-    const glm::uvec4 words = draw(path.key, vertex.index, shared::kDrawScatter);
+    const glm::uvec4 words = drawStratified(path.stream, path.quality.sobol, vertex.index, shared::kDrawScatter);
     const Real weight = largest / throughput.meanR();
     // Far below what a film resolves, roulette at any depth: throughput must not sink into denormals (numerics H37).
     if (vertex.index >= path.scene.constants.rouletteDepth || weight < Real(1e-20)) {
@@ -106,7 +106,7 @@ bool mediumVertex(const PathContext<Real, Trace>& path, const Medium<Real>& medi
     if (vertex.index >= path.scene.constants.maxDepth) return false;
     vertex.medium = &medium;
     vertex.position = state.ray.origin + t * state.ray.direction;
-    const glm::uvec4 words = draw(path.key, vertex.index, shared::kDrawAlbedo);
+    const glm::uvec4 words = draw(path.stream.key, vertex.index, shared::kDrawAlbedo);
     const Vec3<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y), toUniform<Real>(words.z)};
     return scatter(path, vertex, albedoAt(medium, vertex.position, u), state);
 }

@@ -16,7 +16,7 @@ template <typename Real, typename Trace>
 struct PathContext {
     const SceneView<Real>& scene;
     const Quality& quality;
-    glm::uvec2 key;
+    Stream stream;
     int hero;  ///< channel that chromatic collisions are decided by
     Counters& counters;
     Trace& trace;
@@ -136,7 +136,7 @@ std::optional<Real> trackHomogeneousFlight(const PathContext<Real, Trace>& path,
         t = collision;
         ++path.counters[shared::kCounterCollisions];
         if (medium.grey) return t;
-        const glm::uvec4 words = draw(path.key, vertex, shared::kDrawFlight | residual.index);
+        const glm::uvec4 words = draw(path.stream.key, vertex, shared::kDrawFlight | residual.index);
         residual.renew(words);
         if (decideFlight(medium, Real(1), Real(1), toUniform<Real>(words.x), path.hero, throughput)) return t;
     }
@@ -173,7 +173,7 @@ std::optional<Real> trackFlight(const PathContext<Real, Trace>& path, const Medi
     CellWalk<Real> walk = gridRay(medium, ray.origin, ray.direction);
     if (!clipToGrid(medium, ray.tMin, tEnd, walk)) return std::nullopt;
     while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
-        const glm::uvec4 words = draw(path.key, vertex, shared::kDrawFlight | residual.index);
+        const glm::uvec4 words = draw(path.stream.key, vertex, shared::kDrawFlight | residual.index);
         const Real density = densityHere(path, medium, walk, words);
         const Real u = toUniform<Real>(words.x);
         if constexpr (Trace::kIsOn) {
@@ -208,7 +208,7 @@ bool trackShadow(const PathContext<Real, Trace>& path, const Medium<Real>& mediu
     CellWalk<Real> walk = gridRay(medium, ray.origin, ray.direction);
     if (!clipToGrid(medium, ray.tMin, tEnd, walk)) return true;
     while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
-        const glm::uvec4 words = draw(path.key, vertex, shared::kDrawShadow | residual.index);
+        const glm::uvec4 words = draw(path.stream.key, vertex, shared::kDrawShadow | residual.index);
         const Vec3<Real> q = medium.sigmaRatio * (densityHere(path, medium, walk, words) / walk.bound);
         const Real u = toUniform<Real>(words.x);
         if constexpr (Trace::kIsOn) {
