@@ -53,10 +53,11 @@ void addQualityOptions(CLI::App& command, RenderArguments& arguments) {
     addChoiceOption<bool, bool>(
         command, "--nee", arguments.sampleEveryLight, {{"auto", false}, {"all", true}},
         "aim rays at the lights that gain from it (default auto), or at the constant environment too");
-    addChoiceOption<bool, bool>(
-        command, "--sampler", arguments.quality.sobol, {{"sobol", true}, {"independent", false}},
-        "random numbers: Owen-scrambled Sobol points (default; the variance in the EXR is then an "
-        "upper bound), or independent ones");
+    addChoiceOption<std::optional<bool>, bool>(
+        command, "--sampler", arguments.sobol, {{"sobol", true}, {"independent", false}},
+        "random numbers: Owen-scrambled Sobol points (default where surfaces or light sampling gain from them; the "
+        "variance "
+        "in the EXR is then an upper bound), or independent ones (default in media alone)");
     addChoiceOption<bool, bool>(command, "--density-filter", arguments.quality.stochasticFilter,
                                 {{"stochastic", true}, {"trilinear", false}},
                                 "one random corner per density lookup (default), or all eight");

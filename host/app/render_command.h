@@ -27,6 +27,7 @@ struct RenderArguments {
     std::optional<unsigned> vectorBits;
     std::optional<bool> allEffects;
     std::optional<std::uint32_t> stepsPerEvent;
+    std::optional<bool> sobol;
 
     double exposure = 0;
     bool allowAnomalies = false, json = false, quiet = false;
