@@ -10,7 +10,7 @@
 namespace parhelion::test {
 namespace {
 
-constexpr glm::uvec2 kSize{96, 96};
+constexpr glm::uvec2 kSize{64, 64};
 constexpr std::uint32_t kSamples = 16;
 
 const std::filesystem::path kScene = sceneFolder() / "gradient_sky.xml";
