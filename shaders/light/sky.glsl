@@ -12,8 +12,8 @@
 // power: that of an exponent x is relative, and x exp(x) is bounded.
 float unitPower(float base, float complement, float power) {
     precise float next = 1.0 - complement;
-    precise float lost = (next - 1.0) + complement;
-    float logarithm = base < 0.5 ? logPositive(max(base, 1.2e-38)) : logPositive(next) - lost / next;
+    precise float lost = (next - 1.0) + complement;  // what rounding took; the slope of log may pass for 1
+    float logarithm = base < 0.5 ? logPositive(max(base, 1.2e-38)) : logPositive(next) - lost;
     float result = base > 0.0 ? expNegative(power * logarithm) : 0.0;
     result = power == 1.0 ? base : result;
     return power == 0.0 ? 1.0 : result;

@@ -92,6 +92,17 @@ TEST(SkyParity, GradientFollowsTheFormulaForEveryParameter) {
     }
 }
 
+TEST(SkyParity, AStepIsTopOnItsEdge) {
+    SkyDescription sky;
+    sky.width = 0;
+    sky.top = {1, 2, 3};
+    const glm::vec3 above(std::sqrt(1 - 1e-12f), 1e-6f, 0);
+    const auto inputs = asInputs({{1, 0, 0}, {0, 0, -1}, above, glm::vec3(1, -1, 1) * above});
+    const auto outputs = test::SceneProbe(skyScene(sky).scene).run(kShader, kGradient, inputs);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(glm::vec3(outputs[i]), glm::vec3(1, 2, 3)) << i;
+    EXPECT_EQ(glm::vec3(outputs[3]), glm::vec3(0));
+}
+
 // Where the formula is steep, the roundings of t_raw grow with its slope (power < 1 has no bound where s is 0): the
 // test above.
 TEST(SkyParity, GradientIsWithinTwoMillionthsOfTheFormula) {
@@ -148,14 +159,13 @@ TEST(SkyParity, SpotsAboutTheAxisKeepTheirDigits) {
 bool isAtCellBorder(glm::dvec3 d, double cells) {
     const glm::dvec3 a = glm::abs(d);
     const double major = std::max({a.x, a.y, a.z});
-    int largest = 0;
-    bool onBorder = false;
+    bool nearTie = false, onBorder = false;
     for (int i = 0; i < 3; ++i) {
-        largest += a[i] > major * (1 - 1e-6);
+        nearTie = nearTie || (a[i] > major * (1 - 1e-6) && a[i] < major);  // exact ties have an order
         const double place = (0.5 + 0.5 * d[i] / major) * cells;
         onBorder = onBorder || (a[i] < major && std::abs(place - std::round(place)) < 1e-6 * cells);
     }
-    return onBorder || largest > 1;
+    return onBorder || nearTie;
 }
 
 TEST(SkyParity, StarsAreFoundWhereTheyAre) {
