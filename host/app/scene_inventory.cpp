@@ -10,7 +10,8 @@ namespace parhelion::app {
 namespace {
 
 LightEntry describeLight(const shared::Light& light) {
-    static constexpr const char* kTypes[] = {"directional", "point", "parallelogram", "sphere", "mesh", "environment"};
+    static constexpr const char* kTypes[] = {"directional", "point",       "parallelogram",   "sphere",
+                                             "mesh",        "environment", "environment map", "sky"};
     return {kTypes[light.type], light.emission, light.selection,
             light.type == shared::kLightMesh ? light.triangleCount : 0};
 }

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "compile/compile_sky.h"
+#include "compile/luminance.h"
 #include "compile/transforms.h"
 #include "compile/triangle_soup.h"
 
@@ -16,9 +18,6 @@ namespace parhelion {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-/// Rec. 709, as Mitsuba weighs it.
-double luminance(const glm::vec3& rgb) { return 0.212671 * rgb.r + 0.715160 * rgb.g + 0.072169 * rgb.b; }
 
 bool isBlack(const glm::vec3& rgb) { return rgb == glm::vec3(0.0f); }
 
@@ -70,6 +69,7 @@ public:
         static constexpr const char* kNames[] = {"directional emitter", "point emitter", "constant emitter",
                                                  "environment map", "sky"};
         const std::string name = kNames[static_cast<int>(emitter.type)];
+        if (emitter.type == EmitterDescription::Type::Sky) return addSky(emitter);
         shared::Light light{};
         light.texture = shared::kNone;
         light.emission = toFloat(emitter.value, emitter.where, name);
@@ -91,10 +91,28 @@ public:
                 return append(
                     {light, sampleEveryLight_ ? 4.0 * kPi * kPi * radius_ * radius_ * flux : 0.0, shared::kNone},
                     emitter.where);
-            case EmitterDescription::Type::EnvironmentMap:
             case EmitterDescription::Type::Sky:
+            case EmitterDescription::Type::EnvironmentMap:
                 throw InputError(emitter.where, name + " is not supported");
         }
+    }
+
+    void addSky(const EmitterDescription& emitter) {
+        if (emitter.sky.starDensity > 0.0 && emitter.sky.starRadiance == glm::dvec3(0.0))
+            scene_.notes.push_back("sky: its stars are black");
+        if (isUniform(emitter.sky)) {
+            EmitterDescription uniform;
+            uniform.where = emitter.where;
+            uniform.value = skyGradientAt(emitter.sky, 0.0);
+            return uniform.value == glm::dvec3(0.0) ? noteBlack("sky") : addEmitter(uniform);
+        }
+        const glm::dvec3 mean = compileSky(emitter.sky, emitter.where, scene_);
+        if (mean == glm::dvec3(0.0)) return noteBlack("sky");
+        shared::Light light{};
+        light.emission = glm::vec3(mean);  // for those who list lights
+        light.type = shared::kLightSky;
+        light.texture = light.primitive = shared::kNone;
+        append({light, 4.0 * kPi * kPi * radius_ * radius_ * luminance(mean), shared::kNone}, emitter.where);
     }
 
     /// Lights that are sampled come first, so that the others need no place in the search.
@@ -107,7 +125,9 @@ public:
             constants.lights[index] = pending.light;
             powers.push_back(pending.power);
             if (pending.shape != shared::kNone) scene_.shapes[pending.shape].light = index;
-            if (pending.light.type == shared::kLightEnvironment) constants.environment = index;
+            const bool surrounds =
+                pending.light.type == shared::kLightEnvironment || pending.light.type == shared::kLightSky;
+            if (surrounds) constants.environment = index;
         }
         assignSelection(powers, std::span(constants.lights).first(constants.lightCount));
     }
@@ -171,10 +191,12 @@ private:
 void rejectSecondEnvironment(const SceneDescription& description) {
     const EmitterDescription* first = nullptr;
     for (const EmitterDescription& emitter : description.emitters) {
-        if (emitter.type != EmitterDescription::Type::Constant) continue;
+        using Type = EmitterDescription::Type;
+        if (emitter.type != Type::Constant && emitter.type != Type::Sky) continue;
         if (first)
-            throw InputError(emitter.where, fmt::format("a scene may have one constant emitter; the first is at {}",
-                                                        first->where.text()));
+            throw InputError(
+                emitter.where,
+                fmt::format("a scene may have one constant emitter or sky; the first is at {}", first->where.text()));
         first = &emitter;
     }
 }

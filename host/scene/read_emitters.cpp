@@ -1,9 +1,14 @@
 #include "scene/read_emitters.h"
 
+#include <cmath>
+#include <numbers>
+
+#include "shared/scene_types.h"
+
 namespace parhelion {
 namespace {
 
-const std::vector<std::string> kSceneEmitters{"constant", "directional", "point"};
+const std::vector<std::string> kSceneEmitters{"constant", "directional", "point", "sky"};
 
 /// Accepts Mitsuba's weight for choosing lights. Light selection here follows from power alone.
 void readSamplingWeight(ReadContext& context, PropertyReader& reader) {
@@ -38,13 +43,55 @@ void readPoint(PropertyReader& reader, EmitterDescription& emitter) {
     emitter.vector = reader.triple("position", glm::dvec3(toWorld[3]));
 }
 
-void readConstant(const ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
-    emitter.type = EmitterDescription::Type::Constant;
-    emitter.value = reader.color("radiance", 1.0, kNonNegative);
+void rejectSecondSurrounding(const ReadContext& context, const PropertyReader& reader) {
+    using Type = EmitterDescription::Type;
     for (const EmitterDescription& other : context.scene.emitters)
-        if (other.type == EmitterDescription::Type::Constant)
+        if (other.type == Type::Constant || other.type == Type::Sky)
             reader.fail(reader.where(),
                         fmt::format("only one emitter may surround the scene; the first is at {}", other.where.text()));
+}
+
+void readConstant(const ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
+    rejectSecondSurrounding(context, reader);
+    emitter.type = EmitterDescription::Type::Constant;
+    emitter.value = reader.color("radiance", 1.0, kNonNegative);
+}
+
+void readStars(PropertyReader& reader, SkyDescription& sky) {
+    constexpr double kPi = std::numbers::pi;
+    constexpr NumberRange kSize{1e-3, 10.0, false, false, "be in [0.001, 10] degrees"};
+    sky.starDensity = reader.number("star_density", 0.0, kNonNegative);
+    sky.starSizeDegrees = reader.number("star_size", 0.1, kSize);
+    sky.starRadiance = reader.color("star_radiance", 1.0, kNonNegative);
+    sky.starSeed = std::uint32_t(reader.integer("star_seed", 0, 0, 0xffffffffll));
+    const double stars = 4.0 * kPi * sky.starDensity;
+    if (stars > shared::kMaxStars)
+        reader.fail(reader.whereOf("star_density"),
+                    fmt::format("\"star_density\" must be at most {:.0f} per steradian ({} stars); got {}",
+                                std::floor(shared::kMaxStars / (4.0 * kPi)), shared::kMaxStars, sky.starDensity));
+    const double sine = std::sin(sky.starSizeDegrees * kPi / 720.0);  // of half the radius
+    const double covered = stars * sine * sine;
+    if (covered > 0.1)
+        reader.fail(reader.whereOf("star_density"),
+                    fmt::format("stars must cover at most a tenth of the sky; got {:.3g} of it", covered));
+}
+
+void readSky(const ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
+    rejectSecondSurrounding(context, reader);
+    emitter.type = EmitterDescription::Type::Sky;
+    SkyDescription& sky = emitter.sky;
+    const glm::dvec3 axis = reader.triple("axis", sky.axis);
+    const double length = glm::length(axis);
+    if (!(length > 1e-150 && length < 1e150))
+        reader.fail(reader.whereOf("axis"), "\"axis\" must not be zero or longer than 1e150");
+    sky.axis = axis / length;
+    constexpr NumberRange kOffset{-1e30, 1e30, false, false, "be in [-1e30, 1e30]"};
+    sky.offset = reader.number("offset", sky.offset, kOffset);
+    sky.width = reader.number("width", sky.width, kNonNegative);
+    sky.power = reader.number("power", sky.power, kNonNegative);
+    sky.bottom = reader.color("bottom", 0.0, kNonNegative);
+    sky.top = reader.color("top", 1.0, kNonNegative);
+    readStars(reader, sky);
 }
 
 }  // namespace
@@ -55,6 +102,8 @@ void readEmitter(ReadContext& context, const XmlElement& element) {
     emitter.where = reader.where();
     if (reader.type() == "constant")
         readConstant(context, reader, emitter);
+    else if (reader.type() == "sky")
+        readSky(context, reader, emitter);
     else if (reader.type() == "directional")
         readDirectional(reader, emitter);
     else if (reader.type() == "point")

@@ -116,9 +116,9 @@ struct SkyDescription {
     glm::dvec3 axis{0.0, 1.0, 0.0};
     double offset = 0.0, width = 1.0, power = 1.0;
     glm::dvec3 top{0.0}, bottom{0.0};  ///< radiance
-    double starDensity = 0.0;          ///< stars per steradian
+    double starDensity = 0.0;          ///< stars per steradian, on average
     double starSizeDegrees = 0.1;      ///< angular diameter
-    glm::dvec3 starRadiance{1.0};
+    glm::dvec3 starRadiance{1.0};      ///< of the brightest star there can be
     std::uint32_t starSeed = 0;
 };
 

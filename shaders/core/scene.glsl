@@ -43,6 +43,7 @@ Quad nearLightQuad;      // of nearLight, where it is one
 Sphere nearLightSphere;
 vec3 environmentRadiance;
 uint environmentLight;
+Sky sky;
 uint maxDepth;
 uint rouletteDepth;
 uint triangleCount;
@@ -64,6 +65,7 @@ void loadScene() {
     nearLightSphere = scene.spheres[min(nearLight.primitive - quadCount, kMaxSpheres - 1u)];
     environmentRadiance = scene.environmentRadiance;
     environmentLight = scene.environment;
+    sky = scene.sky;
     maxDepth = scene.maxDepth;
     rouletteDepth = scene.rouletteDepth;
     triangleCount = scene.triangleCount;

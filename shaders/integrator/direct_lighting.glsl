@@ -45,9 +45,9 @@ struct DirectLight {
     float threshold;    // of the shadow ray's roulette
 };
 
-// `largestFactor`: largest channel of a surface's reflectance, 1 in media.
-DirectLight estimateDirect(Scatterer s, vec3 position, vec3 u, float largestFactor, inout uint tests) {
-    LightSample light = sampleLight(position, u, tests);
+// `u`, `words`: the light and the environment draw. `largestFactor`: largest channel of a surface's reflectance, 1 in media.
+DirectLight estimateDirect(Scatterer s, vec3 position, vec3 u, uvec4 words, float largestFactor, inout uint tests) {
+    LightSample light = sampleLight(position, u, words, tests);
     float value = evalScatterer(s, light.direction);
     vec3 contribution = light.radianceOverPdf * (value * balanceHeuristic(light.pdf, value));
     float threshold = min(1.0, shadowRoulette * safeDivide(kInvFourPi, value * largestFactor));

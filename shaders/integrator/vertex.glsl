@@ -13,10 +13,17 @@ void addEmission(inout Path p, Surface surface, uint lightIndex) {
 
 void addEnvironment(inout Path p) {
     if (environmentLight == kNone || p.vertex >= maxDepth) return;
+    vec3 radiance = environmentRadiance;
+    float pdf = kInvFourPi;
+    if (hasSky && scene.lights[environmentLight].type == kLightSky) {
+        SkyPoint point = SkyPoint(p.ray.direction, hasStars ? findStar(p.ray.direction) : kNone);
+        radiance = skyRadiance(point);
+        pdf = skyPdf(point);
+    }
     float weight = 1.0;
     if (hasEnvironmentSampling)
-        weight = balanceHeuristic(p.lastPdf, kInvFourPi * scene.lights[environmentLight].selection);
-    p.radiance += spectralBeta(p) * environmentRadiance * weight;
+        weight = balanceHeuristic(p.lastPdf, pdf * scene.lights[environmentLight].selection);
+    p.radiance += spectralBeta(p) * radiance * weight;
 }
 
 // What a vertex scatters with, for the lanes that have one.
@@ -46,7 +53,8 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
         uvec4 choice = drawStratified(p.stream, p.vertex, kDrawLight);
         vec3 u = vec3(toUniform(choice.z), toUniform(choice.x), toUniform(choice.y));
         float largestFactor = v.scatterer.surface ? maxComponent(v.factor) : 1.0;
-        light = estimateDirect(v.scatterer, p.vertexPosition, u, largestFactor, counts.tests);
+        uvec4 words = hasSky ? drawStratified(p.stream, p.vertex, kDrawEnvironment) : uvec4(0u);
+        light = estimateDirect(v.scatterer, p.vertexPosition, u, words, largestFactor, counts.tests);
         p.pending = spectralBeta(p) * light.contribution;
         shadow = maxComponent(p.pending) > 0.0;
         shadowExponential = uvec2(choice.w, spareBits(choice.x, choice.y, choice.z));
@@ -113,6 +121,7 @@ uint handleEvent(inout Path p, inout DirectLight light, inout uvec2 shadowExpone
     Vertex vertex;
     vertex.scatters = false;
     uint next = kContinue;
+    counts.tests += hasStars ? kMaxStarsPerCell + 1u : 0u;  // of addEnvironment
     if (p.segment.state == kArrived) next = arrive(p, vertex);
     if (hasMedia && p.segment.state == kRouletted) next = kFlight;
     if (hasMedia && p.segment.state == kCollided) vertex = mediumVertex(p);

@@ -5,6 +5,7 @@
 #include "core/frame.glsl"
 #include "core/scene.glsl"
 #include "geometry/intersection.glsl"
+#include "light/sky.glsl"
 #include "sampling/distribution.glsl"
 #include "sampling/warp.glsl"
 
@@ -88,8 +89,8 @@ LightSample sampleMeshLight(Light light, vec3 position, float selector, vec2 u, 
     return sampleArea(light, position, surface.position, surface.geometricNormal, light.area, primitive);
 }
 
-// A light seen from `position`, chosen by u.x, placed by u.yz.
-LightSample sampleLight(vec3 position, vec3 u, inout uint tests) {
+// A light seen from `position`, chosen by u.x, placed by u.yz, or by `words` (the environment draw) on a sky.
+LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
     uint index = selectLight(u.x);
     tests += hasManyLights ? 9u : 0u;
     Light light = lightAt(index);
@@ -118,6 +119,12 @@ LightSample sampleLight(vec3 position, vec3 u, inout uint tests) {
         float pdf = kInvFourPi * light.selection;
         result = LightSample(uniformSphere(u.yz), kInfinity, light.emission / pdf, pdf, kNone);
     }
+    if (hasSky && light.type == kLightSky) {
+        SkyPoint point = sampleSky(words);
+        float pdf = skyPdf(point) * light.selection;
+        result = LightSample(point.direction, kInfinity, skyRadiance(point) * safeDivide(1.0, pdf), pdf, kNone);
+    }
+    tests += hasStars ? kMaxStarsPerCell + 1u : 0u;
     return result;
 }
 

@@ -191,6 +191,9 @@ struct EnvironmentMap {
 };
 SHARED_LAYOUT(EnvironmentMap, 48);
 
+SHARED_CONST(uint, kMaxStars, 262144u);
+SHARED_CONST(uint, kMaxStarsPerCell, 8u);
+
 // Gradient sky with stars: t = clamp((t_raw + offset - 1/2) / width + 1/2, 0, 1)^power, t_raw = (dot(d, axis) + 1) / 2,
 // L = (1 - t) bottom + t top.
 struct Sky {
@@ -201,7 +204,7 @@ struct Sky {
     vec3 top;
     float power;
     vec3 starRadiance;     // of a star of brightness 1
-    uint starCells;        // per axis of the lookup grid; 0: no stars
+    uint starCells;        // per edge of a face of the lookup cube; 0: no stars
     float starSelection;   // probability that sampling picks a star rather than the gradient
     uint starCount;
     uint bandCount;        // bands of equal height in dot(d, axis) that sampling chooses from

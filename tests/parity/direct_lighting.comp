@@ -24,7 +24,7 @@ void probeItem() {
             break;
         case 2u:  // axis, g; wo, surface; position, largest factor; u
             uint tests = 0u;
-            DirectLight light = estimateDirect(s, c.xyz, probeInput(3u).xyz, c.w, tests);
+            DirectLight light = estimateDirect(s, c.xyz, probeInput(3u).xyz, uvec4(0u), c.w, tests);
             probeOutput(0u, vec4(light.contribution, light.threshold));
             probeOutput(1u, vec4(light.direction, light.distance));
             break;

@@ -16,8 +16,8 @@ void probeItem() {
     vec3 position = probeInput(0u).xyz, u = probeInput(1u).xyz;
     switch (probeFunction) {
         case 0u:
-            put(sampleLight(position, u, tests));
-            probeOutput(2u, vec4(uintBitsToFloat(uvec2(sampleLight(position, u, tests).target, selectLight(u.x))), 0.0, 0.0));
+            put(sampleLight(position, u, uvec4(0u), tests));
+            probeOutput(2u, vec4(uintBitsToFloat(uvec2(sampleLight(position, u, uvec4(0u), tests).target, selectLight(u.x))), 0.0, 0.0));
             break;
         case 1u: probeOutput(0u, vec4(oneMinusCosCone(position, probeInput(0u).w))); break;
         case 2u:  // origin; distance, cosine, light

@@ -64,6 +64,9 @@ std::vector<BadText> badLights() {
         {"TwoSkies",
          sceneOf("<emitter type=\"constant\"/>\n@@<emitter type=\"constant\"/>"),
          {"only one emitter", "scene.xml:2:1"}},
+        {"SkyBesidesConstant",
+         sceneOf("<emitter type=\"constant\"/>\n@@<emitter type=\"sky\"/>"),
+         {"only one emitter", "scene.xml:2:1"}},
         {"AreaLightWithoutShape", sceneOf("@@<emitter type=\"area\"/>"), {"nested in a <shape>"}},
         {"LightOnNullSurface",
          sceneOf("@@<shape type=\"sphere\"><bsdf type=\"null\"/><emitter type=\"area\"/></shape>"),
@@ -75,6 +78,33 @@ std::vector<BadText> badLights() {
          sceneOf("<emitter type=\"directional\"><vector name=\"direction\" value=\"0 0 1\"/>@@<transform "
                  "name=\"to_world\"/></emitter>"),
          {"not both"}},
+    };
+}
+
+/// A sky around the part that is wrong.
+std::string skyOf(const std::string& content) { return sceneOf("<emitter type=\"sky\">\n" + content + "\n</emitter>"); }
+
+std::vector<BadText> badSkies() {
+    return {
+        {"NegativeWidth", skyOf("<float name=\"width\" value=\"@@-0.1\"/>"), {"\"width\" must be in [0", "got -0.1"}},
+        {"NegativePower", skyOf("<float name=\"power\" value=\"@@-1\"/>"), {"\"power\" must be in [0", "got -1"}},
+        {"InfiniteOffset", skyOf("<float name=\"offset\" value=\"@@inf\"/>"), {"finite"}},
+        {"ZeroAxis", skyOf("<vector name=\"axis\" value=\"@@0 0 0\"/>"), {"must not be zero"}},
+        {"NegativeSkyRadiance", skyOf("<rgb name=\"bottom\" value=\"@@1 -1 1\"/>"), {"got -1"}},
+        {"NegativeStarRadiance", skyOf("<rgb name=\"star_radiance\" value=\"@@-2\"/>"), {"got -2"}},
+        {"NegativeStarDensity", skyOf("<float name=\"star_density\" value=\"@@-3\"/>"), {"star_density", "got -3"}},
+        {"PointStars",
+         skyOf("<float name=\"star_size\" value=\"@@0\"/><float name=\"star_density\" value=\"1\"/>"),
+         {"[0.001, 10] degrees", "got 0"}},
+        {"HugeStars", skyOf("<float name=\"star_size\" value=\"@@11\"/>"), {"[0.001, 10] degrees", "got 11"}},
+        {"TooManyStars",
+         skyOf("<float name=\"star_density\" value=\"@@1e6\"/><float name=\"star_size\" value=\"0.01\"/>"),
+         {"at most 20860 per steradian", "got 1000000"}},
+        {"StarsAllOverTheSky",
+         skyOf("<float name=\"star_density\" value=\"@@100\"/><float name=\"star_size\" value=\"5\"/>"),
+         {"a tenth of the sky", "got 0.598"}},
+        {"NegativeSeed", skyOf("<integer name=\"star_seed\" value=\"@@-1\"/>"), {"star_seed", "got -1"}},
+        {"UnknownSkyProperty", skyOf("@@<float name=\"stars\" value=\"1\"/>"), {"unknown property \"stars\"", "star_"}},
     };
 }
 
@@ -173,6 +203,7 @@ TEST_P(ScenePropertyError, NamesTheCauseAndItsPlace) { expectRefused(GetParam())
 INSTANTIATE_TEST_SUITE_P(Values, ScenePropertyError, testing::ValuesIn(badValues()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Surfaces, ScenePropertyError, testing::ValuesIn(badSurfaces()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Lights, ScenePropertyError, testing::ValuesIn(badLights()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(Skies, ScenePropertyError, testing::ValuesIn(badSkies()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Media, ScenePropertyError, testing::ValuesIn(badMedia()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Grids, ScenePropertyError, testing::ValuesIn(badGrids()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Cameras, ScenePropertyError, testing::ValuesIn(badCameras()), nameOfBadText);

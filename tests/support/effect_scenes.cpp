@@ -16,6 +16,8 @@ const std::string kFloor = R"(<shape type="rectangle">
     <bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.6, 0.4"/></bsdf>
 </shape>)";
 const std::string kSky = R"(<emitter type="constant"><rgb name="radiance" value="0.4, 0.5, 0.7"/></emitter>)";
+const std::string kStars = R"(<float name="star_density" value="20"/><float name="star_size" value="3"/>
+    <rgb name="star_radiance" value="20, 30, 40"/>)";
 const std::string kSun = R"(<emitter type="directional"><vector name="direction" x="-0.6" y="-0.7" z="-0.3"/>
     <rgb name="irradiance" value="3, 2.7, 2.2"/></emitter>)";
 const std::string kLamp = R"(<emitter type="point"><point name="position" x="1" y="1.6" z="1.5"/>
@@ -28,6 +30,14 @@ const std::string kSphereLight = R"(<shape type="sphere">
     <point name="center" x="-1.2" y="0.9" z="0.4"/><float name="radius" value="0.3"/>
     <emitter type="area"><rgb name="radiance" value="5, 6, 7"/></emitter>
 </shape>)";
+
+/// A tilted gradient with a kink above the horizon.
+std::string gradientSky(const std::string& stars) {
+    return R"(<emitter type="sky"><vector name="axis" x="0.2" y="1" z="0.3"/><float name="offset" value="-0.1"/>
+    <float name="width" value="0.7"/><float name="power" value="1.5"/>
+    <rgb name="bottom" value="0.7, 0.5, 0.3"/><rgb name="top" value="0.2, 0.4, 0.9"/>)" +
+           stars + "</emitter>";
+}
 
 /// A shape around a medium.
 std::string around(const std::string& medium, const std::string& shape, const std::string& transform = "") {
@@ -144,6 +154,8 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
     <ref name="interior" id="inner"/><ref name="exterior" id="outer"/></shape>)")},
         {"sky sampled, fog", compileText(sceneXml(kSky + kSphereLight + greyBox), size, everyLight)},
         {"empty sky", compiled(kSky)},
+        {"gradient sky, fog", compiled(kFloor + gradientSky("") + greyBox)},
+        {"starry sky, cloud, sun", compiled(kFloor + gradientSky(kStars) + kSun + isotropicCloud)},
     };
 }
 

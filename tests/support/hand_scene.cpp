@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compile/bvh_builder.h"
+#include "compile/compile_sky.h"
 #include "reference/reference_renderer.h"
 
 namespace parhelion::test {
@@ -148,6 +149,14 @@ void HandScene::setEnvironment(glm::vec3 radiance) {
     light.type = shared::kLightEnvironment;
     light.emission = radiance;
     addLight(light, false);
+}
+
+void HandScene::setSky(const SkyDescription& sky, bool isSampled) {
+    shared::Light light{};
+    light.type = shared::kLightSky;
+    light.emission = compileSky(sky, {}, scene);
+    scene.constants.environment = scene.constants.lightCount;
+    addLight(light, isSampled);
 }
 
 void HandScene::addLight(shared::Light light, bool isSampled) {

@@ -6,6 +6,7 @@
 
 #include "compile/compiled_scene.h"
 #include "compile/render_settings.h"
+#include "scene/scene_description.h"
 #include "shared/path_types.h"
 
 namespace parhelion::test {
@@ -41,6 +42,8 @@ public:
 
     /// Makes `radiance` come from everywhere; selection 0: not sampled by next-event estimation.
     void setEnvironment(glm::vec3 radiance);
+    /// Surrounds the scene with a sky, of which next-event estimation is a part unless told otherwise.
+    void setSky(const SkyDescription& sky, bool isSampled = true);
     /// Lights share the selection evenly unless `isSampled` is false.
     void addLight(shared::Light light, bool isSampled = true);
     /// Makes a quad or sphere emit.

@@ -161,7 +161,7 @@ TEST(CompiledLights, MeshTrianglesAreListedByArea) {
 TEST(CompiledLights, SecondEnvironmentAndTooManyLightsAreRefused) {
     SceneDescription description = scene();
     description.emitters = {emitter(kConstant, {1, 1, 1}), emitter(kConstant, {1, 1, 1})};
-    EXPECT_TRUE(contains(inputErrorOf(description), "lights.xml:2:2: a scene may have one constant emitter"));
+    EXPECT_TRUE(contains(inputErrorOf(description), "lights.xml:2:2: a scene may have one constant emitter or sky"));
     description.emitters.assign(shared::kMaxLights, emitter(kPoint, {1, 1, 1}));
     EXPECT_EQ(inputErrorOf(description), "");
     description.emitters.push_back(emitter(kPoint, {1, 1, 1}));

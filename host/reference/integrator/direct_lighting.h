@@ -82,7 +82,8 @@ template <typename Real, typename Trace>
 Vec3<Real> estimateDirect(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex) {
     const glm::uvec4 words = drawStratified(path.stream, path.quality.sobol, vertex.index, shared::kDrawLight);
     const Vec3<Real> u{toUniform<Real>(words.z), toUniform<Real>(words.x), toUniform<Real>(words.y)};
-    const auto light = sampleLight(path.scene, vertex.position, u);
+    const glm::uvec4 place = drawStratified(path.stream, path.quality.sobol, vertex.index, shared::kDrawEnvironment);
+    const auto light = sampleLight(path.scene, vertex.position, u, place);
     if (!light) return Vec3<Real>(0);
     const Real scattering = evalScatterer(vertex, light->direction);
     const Real mis = light->isDelta ? Real(1) : balanceHeuristic(light->pdf, scattering);

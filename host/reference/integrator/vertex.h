@@ -26,19 +26,23 @@ struct FlightEnd {
 
 /// Adds emission met at the end of a flight, weighted against light sampling at its start.
 template <typename Real>
-void addEmission(const SceneView<Real>& scene, const Light<Real>& light, Real distance, const Vec3<Real>& normal,
-                 PathState<Real>& state) {
+void addEmission(const SceneView<Real>& scene, const Light<Real>& light, const Vec3<Real>& emission, Real distance,
+                 const Vec3<Real>& normal, PathState<Real>& state) {
     const Real pdf = lightPdf(scene, light, state.ray.origin, state.ray.direction, distance, normal);
     const Real mis = balanceHeuristic(state.lastPdf, pdf);
-    state.radiance += state.throughput.beta * light.emission * (mis / state.throughput.meanR());
+    state.radiance += state.throughput.beta * emission * (mis / state.throughput.meanR());
 }
 
 /// Adds what comes from beyond the scene.
 template <typename Real>
 void addEnvironment(const SceneView<Real>& scene, PathState<Real>& state) {
-    const std::uint32_t light = scene.constants.environment;
-    if (light == kNone) return;
-    addEmission(scene, scene.lights[light], kInfinity<Real>, -state.ray.direction, state);
+    if (scene.constants.environment == kNone) return;
+    const Light<Real>& light = scene.lights[scene.constants.environment];
+    const Vec3<Real>& direction = state.ray.direction;
+    const Vec3<Real> radiance = light.type == shared::kLightSky
+                                    ? skyRadiance(scene, SkyPoint<Real>{direction, findStar(scene, direction)})
+                                    : light.emission;
+    addEmission(scene, light, radiance, kInfinity<Real>, -direction, state);
 }
 
 /// Absorption, roulette, direct light and the next direction at a vertex.
@@ -88,7 +92,8 @@ bool surfaceVertex(const PathContext<Real, Trace>& path, const Hit<Real>& hit, V
     vertex.strength = maxComponent(reflectance);
     if (glm::dot(vertex.surface.geometricNormal, vertex.wo) > 0) {
         if (shape.light != kNone)
-            addEmission(scene, scene.lights[shape.light], hit.t, vertex.surface.geometricNormal, state);
+            addEmission(scene, scene.lights[shape.light], scene.lights[shape.light].emission, hit.t,
+                        vertex.surface.geometricNormal, state);
     } else {
         if ((shape.flags & shared::kShapeTwoSided) == 0) return false;
         vertex.surface.geometricNormal = -vertex.surface.geometricNormal;

@@ -4,6 +4,7 @@
 
 #include "reference/core/frame.h"
 #include "reference/geometry/intersection.h"
+#include "reference/light/sky.h"
 #include "reference/sampling/distribution.h"
 #include "reference/sampling/warp.h"
 
@@ -103,11 +104,12 @@ std::optional<LightSample<Real>> sampleDeltaLight(const Light<Real>& light, cons
 
 /// Chooses one light and a point of it.
 ///
-/// @param u  which light; the light point.
+/// @param u      which light; the light point.
+/// @param words  the environment draw: the point of a sky; others do without.
 /// @return nothing when no light is sampled, or the one chosen sends nothing this way.
 template <typename Real>
 std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const Vec3<Real>& position,
-                                             const Vec3<Real>& u) {
+                                             const Vec3<Real>& u, const glm::uvec4& words = glm::uvec4(0)) {
     const std::size_t chosen = selectLight(scene, u.x);
     if (chosen == scene.lights.size()) return std::nullopt;
     const Light<Real>& light = scene.lights[chosen];
@@ -130,6 +132,13 @@ std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const
             const Real pdf = light.selection / (4 * kPi<Real>);
             return LightSample<Real>{uniformSphere(uv), kInfinity<Real>, kNone, light.emission / pdf, pdf, false};
         }
+        case shared::kLightSky: {
+            const SkyPoint<Real> point = sampleSky(scene, words);
+            const Real pdf = light.selection * skyPdf(scene, point);
+            if (pdf == 0) return std::nullopt;
+            return LightSample<Real>{
+                point.direction, kInfinity<Real>, kNone, skyRadiance(scene, point) / pdf, pdf, false};
+        }
         default:
             return sampleDeltaLight(light, position);
     }
@@ -142,6 +151,8 @@ Real lightPdf(const SceneView<Real>& scene, const Light<Real>& light, const Vec3
               const Vec3<Real>& direction, Real distance, const Vec3<Real>& normal) {
     if (light.selection == 0) return 0;
     if (light.type == shared::kLightEnvironment) return light.selection / (4 * kPi<Real>);
+    if (light.type == shared::kLightSky)
+        return light.selection * skyPdf(scene, SkyPoint<Real>{direction, findStar(scene, direction)});
     if (light.type == shared::kLightSphere) {
         const auto cone = oneMinusCosCone(scene.spheres[light.primitive - scene.firstSphere], origin);
         return cone ? light.selection / (2 * kPi<Real> * *cone) : Real(0);
