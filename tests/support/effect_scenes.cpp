@@ -29,6 +29,12 @@ const std::string kSphereLight = R"(<shape type="sphere">
     <emitter type="area"><rgb name="radiance" value="5, 6, 7"/></emitter>
 </shape>)";
 
+/// Faces up, away from the floor.
+const std::string kTwoSidedQuad = R"(<shape type="rectangle">
+    <transform name="to_world"><scale value="0.5"/><rotate x="1" angle="-80"/><translate x="0.3" y="1.7"/></transform>
+    <emitter type="area"><rgb name="radiance" value="6, 5, 4"/><boolean name="two_sided" value="true"/></emitter>
+</shape>)";
+
 /// A shape around a medium.
 std::string around(const std::string& medium, const std::string& shape, const std::string& transform = "") {
     return fmt::format(R"(<shape type="{}"><transform name="to_world">{}</transform>
@@ -79,6 +85,8 @@ std::string ball(const TemporaryFolder& folder, bool flat, const std::string& tr
 
 const std::string kTwoSided = R"(<bsdf type="twosided"><bsdf type="diffuse">
     <rgb name="reflectance" value="0.3, 0.6, 0.8"/></bsdf></bsdf>)";
+const std::string kTwoSidedMesh =
+    R"(<emitter type="area"><rgb name="radiance" value="7, 6, 5"/><boolean name="two_sided" value="true"/></emitter>)";
 const std::string kMeshLight = R"(<emitter type="area"><rgb name="radiance" value="7, 6, 5"/></emitter>)";
 
 CompiledScene makeChromatic(CompiledScene scene) {
@@ -144,6 +152,8 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
     <ref name="interior" id="inner"/><ref name="exterior" id="outer"/></shape>)")},
         {"sky sampled, fog", compileText(sceneXml(kSky + kSphereLight + greyBox), size, everyLight)},
         {"empty sky", compiled(kSky)},
+        {"two-sided lights, fog",
+         compiled(kFloor + kTwoSidedQuad + kSphereLight + greyBox + ball(folder, true, smallBall, kTwoSidedMesh))},
     };
 }
 
