@@ -10,7 +10,7 @@ namespace {
 
 constexpr glm::uvec2 kSize{12, 10};
 
-const std::string kGrid = (sceneFolder() / "cumulus.grid").string();
+const std::string kGrid = std::string(PARHELION_ROOT) + "/scenes/cumulus.grid";
 
 std::string inNori() {
     return R"(<scene>
