@@ -16,22 +16,43 @@ bool isCloud(const PropertyReader& reader) {
     return std::ranges::any_of(kCloudProperties, [&reader](const char* name) { return reader.has(name); });
 }
 
-/// Values not given are those of the baseline's sweep.
-shared::CloudField readCloud(PropertyReader& reader) {
-    const auto read = [&reader](const char* name, double fallback, const NumberRange& range) {
-        return static_cast<float>(reader.number(name, fallback, range));
-    };
+constexpr std::int64_t kMaxBakeResolution = 1024;
+constexpr NumberRange kUpToFour{0.0, 4.0, false, false, "be in [0, 4]"};
+
+/// The noise's parameters; values not given are those of the baseline's sweep.
+shared::CloudField readNoise(PropertyReader& reader) {
+    constexpr NumberRange kScale{0.0, 256.0, true, false, "be in (0, 256]"};
+    constexpr NumberRange kWidth{1e-3, 4.0, false, false, "be in [0.001, 4]"};
     shared::CloudField cloud{};
-    cloud.detailAmount = read("detailAmount", 0.0, kNonNegative);
-    cloud.noiseScale = read("noiseScale", 2.6, kNonNegative);
-    cloud.warpAmount = read("warpAmount", 0.28, kNonNegative);
-    cloud.erosionAmount = read("erosionAmount", 0.3, kNonNegative);
-    cloud.surfaceWidth = read("surfaceWidth", 0.14, kNonNegative);
-    cloud.densityScale = read("densityScale", 0.85, kNonNegative);
-    cloud.densityThreshold = read("densityThreshold", 0.02, kUnitInterval);
-    cloud.noiseSeed = static_cast<std::uint32_t>(reader.integer("noiseSeed", 4, 0, 0xffffffffLL));
-    constexpr std::int64_t kFinest = 1024;  // 4 GiB of voxels
-    cloud.resolution = glm::uvec3(static_cast<unsigned>(reader.integer("bakeResolution", 128, 2, kFinest)));
+    cloud.detailAmount = float(reader.number("detailAmount", 0.62, kUpToFour));
+    cloud.noiseScale = float(reader.number("noiseScale", 2.6, kScale));
+    cloud.warpAmount = float(reader.number("warpAmount", 0.28, kUpToFour));
+    cloud.erosionAmount = float(reader.number("erosionAmount", 0.3, kUpToFour));
+    cloud.surfaceWidth = float(reader.number("surfaceWidth", 0.14, kWidth));
+    cloud.noiseSeed = std::uint32_t(reader.integer("noiseSeed", 4, 0, 0xffffffffLL));
+    return cloud;
+}
+
+shared::CloudField readCloud(PropertyReader& reader) {
+    constexpr NumberRange kDensityScale{0.0, 1000.0, false, false, "be in [0, 1000]"};
+    shared::CloudField cloud = readNoise(reader);
+    cloud.densityScale = float(reader.number("densityScale", 0.85, kDensityScale));
+    cloud.densityThreshold = float(reader.number("densityThreshold", 0.02, kUnitInterval));
+    cloud.resolution = glm::uvec3(unsigned(reader.integer("bakeResolution", 128, 1, kMaxBakeResolution)));
+    return cloud;
+}
+
+/// The detail that erodes a file's density, at its resolution unless told how many voxels its longest axis has.
+shared::CloudField readModulation(PropertyReader& reader, const glm::uvec3& resolution) {
+    shared::CloudField cloud = readNoise(reader);
+    cloud.modulates = 1;
+    cloud.densityScale = 1.0f;
+    cloud.densityThreshold = float(reader.number("densityThreshold", 0.0, kNonNegative));
+    cloud.resolution = resolution;
+    if (!reader.has("bakeResolution")) return cloud;
+    const double longest = double(reader.integer("bakeResolution", 128, 1, kMaxBakeResolution));
+    const glm::dvec3 shape(resolution);
+    cloud.resolution = glm::max(glm::round(shape * (longest / std::max({shape.x, shape.y, shape.z}))), glm::dvec3(1.0));
     return cloud;
 }
 
@@ -72,12 +93,11 @@ GridPlacement readNoriDensity(ReadContext& context, PropertyReader& reader, glm:
     if (reader.has(file)) {
         placement.volume = readFile(context, reader, file);
         bounds = {placement.volume.boundsMin, placement.volume.boundsMax};
-    }
-    if (isCloud(reader)) {
-        placement.cloud = readCloud(reader);
-        placement.cloud->modulates = reader.has(file) ? 1u : 0u;
-    } else if (reader.has(file)) {
         sigmaT *= reader.number("densityScale", 1.0, kNonNegative);
+        if (isCloud(reader)) placement.cloud = readModulation(reader, placement.volume.density.resolution());
+    } else if (isCloud(reader)) {
+        placement.cloud = readCloud(reader);
+        placement.volume.source = "procedural cloud";
     } else {
         reader.fail(reader.where(),
                     "needs a density: \"filename\" of a volume, or a procedural cloud's \"detailAmount\"");

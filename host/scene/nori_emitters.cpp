@@ -46,14 +46,17 @@ void readPoint(PropertyReader& reader, EmitterDescription& emitter) {
 }
 
 /// The map's orientation is the baseline's: Mitsuba's, turned by -90 degrees about +y.
-void readMap(PropertyReader& reader, EmitterDescription& emitter) {
+void readMap(ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
     emitter.type = Type::EnvironmentMap;
     emitter.value = reader.color("scale", 1.0, kNonNegative);
     emitter.toWorld = reader.transform("toWorld").matrix * rotationMatrix({0.0, 1.0, 0.0}, -90.0);
-    constexpr double kTolerance = 1e-3;
+    constexpr double kTolerance = 1e-4;
     const Similarity similarity = similarityOf(emitter.toWorld);
     if (!similarity.holds || std::abs(similarity.scale - 1.0) > kTolerance)
         reader.fail(reader.whereOf("toWorld"), "\"toWorld\" of an environment map must not scale or shear");
+    if (glm::dvec3(emitter.toWorld[3]) != glm::dvec3(0.0))
+        context.note(reader.whereOf("toWorld"),
+                     "the translation of an environment map, infinitely far away, has no effect");
     const std::filesystem::path file = reader.file("filename");
     emitter.map = readBitmap(file, reader.whereOf("filename"));
 }
@@ -62,12 +65,13 @@ void readSky(PropertyReader& reader, EmitterDescription& emitter) {
     emitter.type = Type::Sky;
     SkyDescription& sky = emitter.sky;
     sky.axis = readDirection(reader, "axis", sky.axis);
-    sky.offset = reader.number("offset", sky.offset);
+    constexpr NumberRange kOffset{-1e30, 1e30, false, false, "be in [-1e30, 1e30]"};
+    sky.offset = reader.number("offset", sky.offset, kOffset);
     sky.width = reader.number("width", sky.width, kNonNegative);
     sky.power = reader.number("power", sky.power, kNonNegative);
-    sky.top = reader.color(givenName(reader, "top", "topColor"), 0.0, kNonNegative);
+    sky.top = reader.color(givenName(reader, "top", "topColor"), 1.0, kNonNegative);
     sky.bottom = reader.color(givenName(reader, "bottom", "bottomColor"), 0.0, kNonNegative);
-    constexpr NumberRange kStarSize{0.0, 10.0, true, false, "be in (0, 10] degrees"};
+    constexpr NumberRange kStarSize{1e-3, 10.0, false, false, "be in [0.001, 10] degrees"};
     sky.starDensity = reader.number("starDensity", sky.starDensity, kNonNegative);
     sky.starSizeDegrees = reader.number("starSize", sky.starSizeDegrees, kStarSize);
     sky.starRadiance = reader.color("starBrightness", 1.0, kNonNegative);
@@ -81,7 +85,7 @@ void readNoriEmitter(ReadContext& context, const XmlElement& element) {
     EmitterDescription emitter;
     emitter.where = reader.where();
     if (reader.type() == "envmap") {
-        readMap(reader, emitter);
+        readMap(context, reader, emitter);
     } else if (reader.type() == "infinite") {
         readSky(reader, emitter);
     } else if (reader.type() == "constant") {

@@ -166,8 +166,8 @@ std::vector<BadText> badMedia() {
          inMedium(kSigmas + "<string name=\"filename\" value=\"x.vol\"/>", "heterogeneous"),
          {"x.vol"},
          {{"x.vol", "VOL\x03 and nothing more"}}},
-        {"CloudOfOneVoxel",
-         inMedium(kSigmas + "<integer name=\"bakeResolution\" value=\"@@1\"/>", "heterogeneous"),
+        {"CloudOfNoVoxels",
+         inMedium(kSigmas + "<integer name=\"bakeResolution\" value=\"@@0\"/>", "heterogeneous"),
          {"bakeResolution"}},
         {"LobeWeight",
          inMedium(kSigmas + "<phase type=\"dual_hg\"><float name=\"g1\" value=\"0.5\"/><float name=\"g2\" value=\"0\"/>"

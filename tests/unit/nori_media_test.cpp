@@ -89,7 +89,9 @@ TEST(NoriMedium, ModulatesAFileByTheCloudsDetail) {
         readMedium("heterogeneous", kCoefficients + "<string name=\"filename\" value=\"" + file +
                                         R"("/><float name="detailAmount" value="0.3"/>)");
     EXPECT_EQ(medium.density->cloud->modulates, 1u);
-    EXPECT_EQ(medium.density->volume.channels, 1u);
+    EXPECT_EQ(medium.density->cloud->resolution, medium.density->volume.density.resolution());
+    EXPECT_EQ(medium.density->cloud->densityScale, 1.0f);
+    EXPECT_EQ(medium.density->cloud->densityThreshold, 0.0f);
     EXPECT_GT(medium.density->volume.density.maximum(), 0.0f);
 }
 
