@@ -3,7 +3,7 @@
 namespace parhelion::app {
 
 void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
-    command.add_option("SCENE", arguments.file, "scene file (Mitsuba 3 XML)")->required()->type_name("");
+    command.add_option("SCENE", arguments.file, "scene file (Mitsuba 3 XML, or Nori XML)")->required()->type_name("");
     command
         .add_option_function<std::vector<std::string>>(
             "-D",

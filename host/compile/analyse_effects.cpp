@@ -139,6 +139,10 @@ private:
             countLights([](const Light& light) { return light.texture != shared::kNone; });
         decide(Effect::hasTexturedLights, texturedLights > 0,
                countOf(texturedLights, "textured light", "textured lights"), "every area light is uniform");
+        const std::size_t twoSided =
+            countLights([](const Light& light) { return (light.flags & shared::kLightTwoSided) != 0; });
+        decide(Effect::hasTwoSidedLights, twoSided > 0, countOf(twoSided, "two-sided light", "two-sided lights"),
+               "every area light emits on its front alone");
         const bool environment = constants_.environment != shared::kNone;
         const bool environmentSampled = environment && constants_.lights[constants_.environment].selection > 0.0f;
         const std::uint32_t surrounding = environment ? constants_.lights[constants_.environment].type : shared::kNone;

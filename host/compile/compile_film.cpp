@@ -54,7 +54,7 @@ void compileFilm(const SceneDescription& description, const CompileOptions& opti
                             fmt::format("film: the crop must hold at least one pixel and lie inside the film of {} x "
                                         "{}; got {} x {} at ({}, {})",
                                         size.x, size.y, crop.x, crop.y, offset.x, offset.y));
-    const double radius = reconstructionRadius(film);
+    const double radius = film.filterRadius;
     if (!(radius > 0.0 && radius <= kMaxFilterRadius))
         throw filmError(description, false,
                         fmt::format("film: the reconstruction filter's radius must be in (0, {}] "
@@ -83,7 +83,7 @@ void compileCamera(const SceneDescription& description, CompiledScene& scene) {
     record.forward = toFloat(toWorld * forward, camera.where, "sensor: film corner");
     record.dx = toFloat(toWorld[0] * (-2.0 * halfWidth / size.x), camera.where, "sensor: pixel width");
     record.dy = toFloat(toWorld[1] * (-2.0 * halfHeight / size.y), camera.where, "sensor: pixel height");
-    record.filterRadius = float(reconstructionRadius(description.film));
+    record.filterRadius = float(description.film.filterRadius);
     record.inside = shared::kNone;
     scene.worldOrigin = glm::dvec3(camera.toWorld[3]);
     scene.filterTable = reconstructionTable(description.film);

@@ -20,10 +20,7 @@ void compileCamera(const SceneDescription& description, CompiledScene& scene);
 /// which a share k / 256 of the filter's weight lies; 257 entries, antisymmetric about entry 128.
 /// Empty for the box of radius 0.5, which needs none.
 ///
-/// Source: Mitsuba 3 `tent` (1 - |x| / radius) and `gaussian` (exp(-x^2 / 2 s^2) less its value at 4 s).
+/// Source: Mitsuba 3 `tent` (1 - |x| / radius) and `gaussian` (exp(-x^2 / 2 s^2) less its value at the radius).
 std::vector<float> reconstructionTable(const FilmDescription& film);
-
-/// Half the filter's width in pixels.
-double reconstructionRadius(const FilmDescription& film);
 
 }  // namespace parhelion

@@ -59,10 +59,12 @@ public:
         light.texture = shared::kNone;
         light.emission = radiance;
         const double area = writeSurface(shapeIndex, light);
-        // From outside, where it would be sampled, a sphere that emits inwards is dark.
-        const bool inwards =
-            light.type == shared::kLightSphere && (scene_.shapes[shapeIndex].flags & shared::kShapeFlipNormal) != 0;
-        append({light, inwards ? 0.0 : kPi * area * luminance(radiance), shapeIndex}, source.where);
+        if (source.emitsOnBothSides) light.flags |= shared::kLightTwoSided;
+        const double sides = source.emitsOnBothSides ? 2.0 : 1.0;
+        // From outside, where it would be sampled, a sphere that emits inwards alone is dark.
+        const bool inwards = sides == 1.0 && light.type == shared::kLightSphere &&
+                             (scene_.shapes[shapeIndex].flags & shared::kShapeFlipNormal) != 0;
+        append({light, inwards ? 0.0 : sides * kPi * area * luminance(radiance), shapeIndex}, source.where);
     }
 
     void addEmitter(const EmitterDescription& emitter) {

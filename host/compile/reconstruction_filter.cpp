@@ -22,12 +22,8 @@ double invertLinear(double w0, double w1, double step, double mass) {
 
 }  // namespace
 
-double reconstructionRadius(const FilmDescription& film) {
-    return film.filter == ReconstructionFilter::Gaussian ? 4.0 * film.filterStddev : film.filterRadius;
-}
-
 std::vector<float> reconstructionTable(const FilmDescription& film) {
-    const double radius = reconstructionRadius(film);
+    const double radius = film.filterRadius;
     if (film.filter == ReconstructionFilter::Box && radius == 0.5) return {};
 
     // Trapezoids on half of the symmetric filter: with 2^16 of them the error is below 1e-9 radii.

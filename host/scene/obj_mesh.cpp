@@ -161,7 +161,8 @@ Mesh readObjMesh(const std::filesystem::path& file, const SourceLocation& where,
     const ObjText text = checkObjText(readTextFile(file, where), file.string());
     const ObjLines lines = parseLines(text.geometry, file.string());
     Mesh mesh = MeshBuilder(lines, options).build(text.faces);
-    if (mesh.normals.empty() && !options.faceNormals) addSmoothNormals(mesh, options.toWorld, file.string());
+    if (mesh.normals.empty() && options.smooth && !options.faceNormals)
+        addSmoothNormals(mesh, options.toWorld, file.string());
     return mesh;
 }
 

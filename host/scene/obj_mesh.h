@@ -8,6 +8,7 @@ namespace parhelion {
 
 struct ObjOptions {
     bool faceNormals = false;   ///< leave the mesh without vertex normals
+    bool smooth = true;         ///< compute vertex normals where the file has none, as Mitsuba does
     bool flipTexCoords = true;  ///< v becomes 1 - v, as Mitsuba has it
     /// Smooth normals are computed in the space this leads to (angles change under uneven scale), as Mitsuba does,
     /// and brought back by its transpose: a normal transforms by the inverse transpose.
@@ -16,7 +17,8 @@ struct ObjOptions {
 
 /// Reads the triangles of a Wavefront OBJ file. Polygons become fans about their first corner; corners with the same
 /// position, texture coordinate and normal share a vertex. Without normals in the file the mesh gets smooth ones,
-/// unless options.faceNormals. Degenerate triangles are kept. Texture coordinates are kept if every corner has one.
+/// if options.smooth and not options.faceNormals. Degenerate triangles are kept. Texture coordinates are kept if every
+/// corner has one.
 ///
 /// @param where  blamed when the file cannot be read; what is wrong inside it is located there.
 /// @throws InputError for malformed lines (checkObjText), polygons that a fan does not cover, normals given for some

@@ -108,14 +108,17 @@ std::string PropertyReader::choice(std::string_view name, const std::string& fal
 }
 
 glm::dvec3 PropertyReader::color(std::string_view name, double fallback, const NumberRange& range) {
-    const XmlElement* property = take(name, {"rgb", "float", "integer", "spectrum"});
+    std::vector<std::string_view> tags{"rgb", "float", "integer", "spectrum"};
+    if (tree_.dialect() == Dialect::Nori) tags = {"color", "float", "integer"};
+    const XmlElement* property = take(name, tags);
     if (!property) return glm::dvec3(fallback);
     const XmlAttribute& value = property->require("value");
     if (property->tag == "spectrum" && value.value.find(':') != std::string::npos)
         fail(value.where, fmt::format("\"{}\": spectra given by wavelength are not supported; use <rgb>, or one number "
                                       "for a constant spectrum",
                                       name));
-    const glm::dvec3 color = property->tag == "rgb" ? parseColor(value) : glm::dvec3(parseNumber(value));
+    const bool isTriple = property->tag == "rgb" || property->tag == "color";
+    const glm::dvec3 color = isTriple ? parseColor(value) : glm::dvec3(parseNumber(value));
     for (int channel = 0; channel < 3; ++channel) checkRange(*property, name, color[channel], range);
     return color;
 }

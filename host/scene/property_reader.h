@@ -63,7 +63,7 @@ public:
     bool boolean(std::string_view name, bool fallback);
     /// One of `allowed`.
     std::string choice(std::string_view name, const std::string& fallback, const std::vector<std::string>& allowed);
-    /// From <rgb>, <spectrum> (constant), <float> or <integer>.
+    /// From <rgb>, <spectrum> (constant), <float> or <integer>; in Nori's dialect from <color>, <float> or <integer>.
     glm::dvec3 color(std::string_view name, double fallback, const NumberRange& range);
     /// From <point> or <vector>.
     glm::dvec3 triple(std::string_view name, glm::dvec3 fallback);

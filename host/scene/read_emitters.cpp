@@ -117,13 +117,13 @@ void readEmitter(ReadContext& context, const XmlElement& element) {
     context.scene.emitters.push_back(std::move(emitter));
 }
 
-glm::dvec3 readAreaEmitter(ReadContext& context, const XmlElement& element) {
+void readAreaEmitter(ReadContext& context, const XmlElement& element, ShapeDescription& shape) {
     PropertyReader reader(context.tree, element);
     if (reader.type() != "area") reader.rejectType({"area"});
-    const glm::dvec3 radiance = reader.color("radiance", 1.0, kNonNegative);
+    shape.radiance = reader.color("radiance", 1.0, kNonNegative);
+    shape.emitsOnBothSides = reader.boolean("two_sided", false);
     readSamplingWeight(context, reader);
     reader.finish();
-    return radiance;
 }
 
 }  // namespace parhelion

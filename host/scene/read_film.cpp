@@ -5,9 +5,6 @@
 namespace parhelion {
 namespace {
 
-constexpr std::int64_t kLargestFilm = 32768;  // pixels on a side
-constexpr NumberRange kFilterWidth{0.0, 32.0, true, false, "be in (0, 32] pixels"};
-
 void readFilter(ReadContext& context, const XmlElement& element) {
     PropertyReader reader(context.tree, element);
     FilmDescription& film = context.scene.film;

@@ -1,3 +1,5 @@
+#include "scene/nori_scene.h"
+#include "scene/only_element.h"
 #include "scene/read_bsdf.h"
 #include "scene/read_emitters.h"
 #include "scene/read_integrator.h"
@@ -10,28 +12,6 @@
 
 namespace parhelion {
 namespace {
-
-/// Remembers the one element of a kind that a scene must have.
-class OnlyElement {
-public:
-    explicit OnlyElement(std::string tag) : tag_(std::move(tag)) {}
-
-    void set(const XmlElement& element) {
-        if (element_)
-            throw InputError(element.where, fmt::format("a scene has only one <{}>; the first is at {}", tag_,
-                                                        element_->where.text()));
-        element_ = &element;
-    }
-
-    const XmlElement& get(const XmlElement& root) const {
-        if (!element_) throw InputError(root.where, fmt::format("the scene needs one <{}>", tag_));
-        return *element_;
-    }
-
-private:
-    std::string tag_;
-    const XmlElement* element_ = nullptr;
-};
 
 [[noreturn]] void rejectAtSceneLevel(const XmlElement& element) {
     const XmlAttribute& type = element.require("type");
@@ -87,7 +67,9 @@ void readObjects(ReadContext& context, const XmlElement& root) {
 }  // namespace
 
 SceneDescription readScene(const std::filesystem::path& file, const SceneReadOptions& options) {
-    const SceneTree tree = SceneTree::load(file, options.defines);
+    XmlElement source = readXml(file);
+    if (isNoriScene(source)) return readNoriScene(file, std::move(source), options);
+    const SceneTree tree = SceneTree::load(file, std::move(source), options.defines);
     SceneDescription scene;
     scene.file = file;
     ReadContext context{tree, options, scene, {}, {}};

@@ -31,38 +31,15 @@ double readHorizontalFov(PropertyReader& reader, double aspect) {
         return horizontalFov(diagonalFovOfLens(focalLength), FovAxis::Diagonal, aspect);
     }
     if (lens) reader.fail(lens->where, "give either \"fov\" or \"focal_length\", not both");
-    constexpr NumberRange kFovRange{0.0, 180.0, true, true, "be in (0, 180) degrees"};
     const double fov = reader.number("fov", 0.0, kFovRange);
     const std::string axis = reader.choice("fov_axis", "x", kFovAxes);
     return horizontalFov(fov, static_cast<FovAxis>(std::ranges::find(kFovAxes, axis) - kFovAxes.begin()), aspect);
-}
-
-glm::dmat4 readCameraTransform(PropertyReader& reader) {
-    const PropertyReader::Transform toWorld = reader.transform("to_world");
-    const Similarity similarity = similarityOf(toWorld.matrix);
-    constexpr double kScaleTolerance = 1e-3;  // Mitsuba's
-    if (!similarity.holds || std::abs(similarity.scale - 1.0) > kScaleTolerance)
-        reader.fail(toWorld.where, "\"to_world\" of a camera must not scale or shear");
-    return toWorld.matrix;
-}
-
-void readClipping(ReadContext& context, PropertyReader& reader) {
-    const double nearClip = reader.number("near_clip", 1e-2, kPositive);
-    const double farClip = reader.number("far_clip", 1e4, kPositive);
-    if (nearClip >= farClip)
-        reader.fail(reader.whereOf(reader.has("near_clip") ? "near_clip" : "far_clip"),
-                    fmt::format("\"near_clip\" must be less than \"far_clip\"; got {} and {}", nearClip, farClip));
-    for (const char* name : {"near_clip", "far_clip"})
-        if (reader.has(name))
-            context.note(reader.whereOf(name),
-                         fmt::format("\"{}\" has no effect: rays start at the camera and have no end", name));
 }
 
 void readSampler(ReadContext& context, const XmlElement& element) {
     PropertyReader reader(context.tree, element);
     const std::vector<std::string> supported{"independent", "stratified", "multijitter", "orthogonal", "ldsampler"};
     if (std::ranges::find(supported, reader.type()) == supported.end()) reader.rejectType(supported);
-    constexpr std::int64_t kMostSamples = std::int64_t{1} << 40;
     context.scene.sampleCount = static_cast<std::uint64_t>(reader.integer("sample_count", 4, 1, kMostSamples));
     context.scene.seed = static_cast<std::uint32_t>(reader.integer("seed", 0, 0, 0xffffffffLL));
     if (reader.type() != "independent") {
@@ -99,6 +76,28 @@ double diagonalFovOfLens(double focalLength) {
     return glm::degrees(2.0 * std::atan(std::hypot(36.0, 24.0) / (2.0 * focalLength)));
 }
 
+glm::dmat4 readCameraTransform(PropertyReader& reader, const char* name) {
+    const PropertyReader::Transform toWorld = reader.transform(name);
+    const Similarity similarity = similarityOf(toWorld.matrix);
+    constexpr double kScaleTolerance = 1e-3;  // Mitsuba's
+    if (!similarity.holds || std::abs(similarity.scale - 1.0) > kScaleTolerance)
+        reader.fail(toWorld.where, fmt::format("\"{}\" of a camera must not scale or shear", name));
+    return toWorld.matrix;
+}
+
+void readClipping(ReadContext& context, PropertyReader& reader, const char* nearName, const char* farName) {
+    const double nearClip = reader.number(nearName, 1e-2, kPositive);
+    const double farClip = reader.number(farName, 1e4, kPositive);
+    if (nearClip >= farClip)
+        reader.fail(
+            reader.whereOf(reader.has(nearName) ? nearName : farName),
+            fmt::format("\"{}\" must be less than \"{}\"; got {} and {}", nearName, farName, nearClip, farClip));
+    for (const char* name : {nearName, farName})
+        if (reader.has(name))
+            context.note(reader.whereOf(name),
+                         fmt::format("\"{}\" has no effect: rays start at the camera and have no end", name));
+}
+
 void readSensor(ReadContext& context, const XmlElement& element) {
     PropertyReader reader(context.tree, element);
     if (reader.type() != "perspective") reader.rejectType({"perspective"});
@@ -110,12 +109,12 @@ void readSensor(ReadContext& context, const XmlElement& element) {
     CameraDescription& camera = context.scene.camera;
     const glm::dvec2 size(context.scene.film.size);
     camera.where = reader.where();
-    camera.toWorld = readCameraTransform(reader);
+    camera.toWorld = readCameraTransform(reader, "to_world");
     camera.fovXDegrees = readHorizontalFov(reader, size.x / size.y);
     for (int axis = 0; axis < 2; ++axis)
         camera.principalPointOffset[axis] =
             reader.number(axis == 0 ? "principal_point_offset_x" : "principal_point_offset_y", 0.0, kAnyNumber);
-    readClipping(context, reader);
+    readClipping(context, reader, "near_clip", "far_clip");
     reader.finish();
 }
 

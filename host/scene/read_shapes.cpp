@@ -54,7 +54,7 @@ void readMedia(ReadContext& context, PropertyReader& reader, ShapeDescription& s
 }
 
 void readSurface(ReadContext& context, PropertyReader& reader, ShapeDescription& shape) {
-    if (const auto emitter = reader.onlyNested("emitter")) shape.radiance = readAreaEmitter(context, *emitter->element);
+    if (const auto emitter = reader.onlyNested("emitter")) readAreaEmitter(context, *emitter->element, shape);
     shape.bsdf.where = reader.where();
     if (const auto bsdf = reader.onlyNested("bsdf"))
         shape.bsdf = readBsdf(context, *bsdf->element);

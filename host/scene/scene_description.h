@@ -30,7 +30,7 @@ struct FilmDescription {
     glm::uvec2 size{768, 576};  ///< Mitsuba's defaults
     std::optional<glm::uvec2> cropOffset, cropSize;
     ReconstructionFilter filter = ReconstructionFilter::Gaussian;
-    double filterRadius = 2.0;  ///< 0.5 for box, tent radius, or 4 * stddev for gaussian; pixels
+    double filterRadius = 2.0;  ///< where it ends: 0.5 for box, 4 * stddev for Mitsuba's gaussian; pixels
     double filterStddev = 0.5;  ///< gaussian
 };
 
@@ -109,6 +109,7 @@ struct ShapeDescription {
     std::optional<std::size_t> interior, exterior;  ///< indices into media
     std::optional<glm::dvec3> radiance;             ///< area emitter; tints the texture, if there is one
     std::optional<std::size_t> radianceTexture;     ///< index into textures
+    bool emitsOnBothSides = false;                  ///< area emitter
 };
 
 /// The project's gradient sky with stars; see shared::Sky for the formula.
@@ -149,11 +150,11 @@ struct SceneDescription {
 };
 
 struct SceneReadOptions {
-    std::map<std::string, std::string> defines;  ///< -D name=value: wins over <default>
+    std::map<std::string, std::string> defines;  ///< -D name=value: wins over <default>; Mitsuba only
     std::size_t volumeMemoryLimitBytes = 0;      ///< see VolumeReadOptions
 };
 
-/// Reads a Mitsuba 3 XML scene.
+/// Reads a scene in Mitsuba 3's or in Nori's dialect of XML, told apart by content.
 /// @throws InputError with file:line:column for anything malformed, unknown or unsupported, naming what is allowed.
 SceneDescription readScene(const std::filesystem::path& file, const SceneReadOptions& options = {});
 

@@ -83,12 +83,12 @@ std::vector<std::string> tagsAllowedIn(const TagRule* parent) {
 
 bool isObjectTag(std::string_view tag) {
     const TagRule* rule = findRule(tag);
-    return rule && rule->kind == Kind::Object;
+    return (rule && rule->kind == Kind::Object) || tag == "mesh" || tag == "camera";
 }
 
 bool isPropertyTag(std::string_view tag) {
     const TagRule* rule = findRule(tag);
-    return rule && (rule->kind == Kind::Value || rule->kind == Kind::Transform);
+    return (rule && (rule->kind == Kind::Value || rule->kind == Kind::Transform)) || tag == "color";
 }
 
 void checkElement(const XmlElement& element, std::string_view parent) {

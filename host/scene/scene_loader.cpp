@@ -41,8 +41,7 @@ SceneLoader::SceneLoader(const std::map<std::string, std::string>& defines) {
     for (const auto& [name, value] : defines) variables_[name] = {value, /*fixed*/ true, /*used*/ false};
 }
 
-XmlElement SceneLoader::load(const std::filesystem::path& file) {
-    XmlElement source = readXml(file);
+XmlElement SceneLoader::load(const std::filesystem::path& file, XmlElement source) {
     if (source.tag != "scene")
         throw InputError(source.where,
                          fmt::format("a scene file starts with <scene version=\"3.0.0\">; got <{}>", source.tag));

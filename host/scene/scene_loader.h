@@ -21,7 +21,9 @@ public:
     explicit SceneLoader(const std::map<std::string, std::string>& defines);
 
     /// The <scene> element without <default>, <include>, <path> and <alias> children.
-    XmlElement load(const std::filesystem::path& file);
+    ///
+    /// @param source  the file as it was read.
+    XmlElement load(const std::filesystem::path& file, XmlElement source);
 
     /// After load(): where files are searched, the scene's own folder first.
     const std::vector<std::filesystem::path>& folders() const { return folders_; }

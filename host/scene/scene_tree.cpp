@@ -10,13 +10,22 @@
 
 namespace parhelion {
 
-SceneTree SceneTree::load(const std::filesystem::path& file, const std::map<std::string, std::string>& defines) {
+SceneTree SceneTree::load(const std::filesystem::path& file, XmlElement source,
+                          const std::map<std::string, std::string>& defines) {
     SceneLoader loader(defines);
     SceneTree tree;
-    tree.root_ = loader.load(file);
+    tree.root_ = loader.load(file, std::move(source));
     tree.folders_ = loader.folders();
     tree.indexObjects(tree.root_);
     tree.addAliases(loader.aliases());
+    return tree;
+}
+
+SceneTree SceneTree::ofNori(const std::filesystem::path& file, XmlElement root) {
+    SceneTree tree;
+    tree.dialect_ = Dialect::Nori;
+    tree.root_ = std::move(root);
+    tree.folders_ = {file.parent_path()};
     return tree;
 }
 

@@ -9,17 +9,30 @@
 
 namespace parhelion {
 
+/// The languages that scenes are written in.
+enum class Dialect { Mitsuba, Nori };
+
 /// A scene's elements after everything textual is done: includes are spliced in, $names replaced, names of versions
 /// before 2 upgraded, tags and attributes checked, ids indexed.
 class SceneTree {
 public:
+    /// Of a scene in Mitsuba's dialect.
+    ///
+    /// @param source   the file as it was read.
     /// @param defines  values that win over the scene's <default>s.
     /// @throws InputError, located in the file that is wrong (which may be an included one).
-    static SceneTree load(const std::filesystem::path& file, const std::map<std::string, std::string>& defines);
+    static SceneTree load(const std::filesystem::path& file, XmlElement source,
+                          const std::map<std::string, std::string>& defines);
+
+    /// Of a scene in Nori's dialect, which has neither includes nor references.
+    ///
+    /// @param root  checked by prepareNoriScene.
+    static SceneTree ofNori(const std::filesystem::path& file, XmlElement root);
 
     SceneTree(SceneTree&&) = default;
 
     const XmlElement& root() const { return root_; }
+    Dialect dialect() const { return dialect_; }
 
     /// The object an `id` attribute refers to, aliases followed.
     /// @throws InputError at the attribute if there is none.
@@ -35,6 +48,7 @@ private:
     void indexObjects(const XmlElement& parent);
     void addAliases(const std::vector<XmlElement>& aliases);
 
+    Dialect dialect_ = Dialect::Mitsuba;
     XmlElement root_;
     std::vector<std::filesystem::path> folders_;
     std::map<std::string, const XmlElement*, std::less<>> objects_;  ///< point into root_

@@ -6,7 +6,7 @@
 void addEmission(inout Path p, Surface surface, uint lightIndex) {
     if (lightIndex == kNone || p.vertex >= maxDepth) return;
     Light light = lightAt(lightIndex);
-    float cosine = -dot(surface.geometricNormal, p.ray.direction);
+    float cosine = lightCosine(light, surface.geometricNormal, -p.ray.direction);
     float weight = balanceHeuristic(p.lastPdf, lightPdf(light, p.ray.origin, p.hit.t, cosine));
     if (cosine > 0.0) p.radiance += spectralBeta(p) * light.emission * weight;
 }

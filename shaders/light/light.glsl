@@ -35,6 +35,13 @@ Sphere sphereOf(Light light) {
     return scene.spheres[light.primitive - quadCount];
 }
 
+// Cosine at an area light of what leaves along `outgoing`, which need not be unit; 0 where nothing does.
+float lightCosine(Light light, vec3 normal, vec3 outgoing) {
+    float cosine = dot(normal, outgoing);
+    if (hasTwoSidedLights && (light.flags & kLightTwoSided) != 0u) cosine = abs(cosine);
+    return max(cosine, 0.0);
+}
+
 // First light whose cumulative probability is above u.
 uint selectLight(float u) {
     uint low = 0u;
@@ -74,7 +81,7 @@ LightSample sampleArea(Light light, vec3 position, vec3 point, vec3 normal, floa
     float square = dot(toLight, toLight);
     float distance = sqrt(square);
     vec3 direction = toLight * safeDivide(1.0, distance);
-    float cosine = max(-dot(direction, normal), 0.0);
+    float cosine = lightCosine(light, normal, -direction);
     float pdf = light.selection * safeDivide(square, cosine * area);
     return LightSample(direction, distance, light.emission * safeDivide(1.0, pdf), pdf, primitive);
 }
@@ -129,7 +136,7 @@ LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
 }
 
 // Density per steradian, selection included, with which sampleLight finds the direction of a ray that
-// left `origin` and met the light after distance t under `cosine` at its front.
+// left `origin` and met the light after distance t under `cosine` (see lightCosine).
 float lightPdf(Light light, vec3 origin, float t, float cosine) {
     float pdf = 0.0;
     if (light.type == kLightQuad) pdf = safeDivide(t * t, cosine * quadOf(light).area);

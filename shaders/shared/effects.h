@@ -39,6 +39,7 @@
     X(hasRayleigh, 29, "Rayleigh phase functions")                              \
     X(hasTabulatedPhase, 30, "tabulated phase functions")                       \
     X(hasColorDensity, 31, "density grids with a value a channel")              \
-    X(hasStrategyWeights, 32, "direct lighting by other than one sample of each strategy")
+    X(hasStrategyWeights, 32, "direct lighting by other than one sample of each strategy") \
+    X(hasTwoSidedLights, 33, "two-sided area lights")
 
 #endif

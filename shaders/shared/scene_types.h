@@ -150,6 +150,9 @@ SHARED_CONST(uint, kLightEnvironment, 5u);     // constant
 SHARED_CONST(uint, kLightEnvironmentMap, 6u);
 SHARED_CONST(uint, kLightSky, 7u);
 
+// Bits of Light.flags.
+SHARED_CONST(uint, kLightTwoSided, 1u);        // an area light that emits on both sides
+
 // Lights that next-event estimation samples come first.
 struct Light {
     vec3 emission;      // irradiance (directional), intensity (point), radiance (others)
@@ -162,8 +165,8 @@ struct Light {
     uint triangleCount; // mesh: number of triangles; their running area fractions start at cdfOffset
     uint cdfOffset;     // mesh: first entry in `lightTriangleCdf` (last entry exactly 1)
     uint texture;       // area lights: index into the textures, which `emission` then tints, or kNone
-    uint reserved1;
-    uint reserved2;
+    uint flags;         // kLightTwoSided
+    uint reserved;
 };
 SHARED_LAYOUT(Light, 64);
 

@@ -16,11 +16,11 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/light.comp";
-enum Function : std::uint32_t { kSample, kCone, kPdf };
+enum Function : std::uint32_t { kSample, kCone, kPdf, kCosine };
 
-/// One light of each type; H71: from 1e-10 to 1e10 strong.
+/// One light of each type; H71: from 1e-10 to 1e10 strong. Two-sided, the quad turns its back on the samples.
 struct LitScene : test::HandScene {
-    LitScene() {
+    explicit LitScene(bool isTwoSided) {
         const auto shape = [this] { return addDiffuse(glm::vec3(0.5f)); };
         const std::uint32_t quad = shape(), ball = shape(), mesh = shape();
         const std::uint32_t quadId = addQuad({-1, 3, -1}, {2, 0, 0}, {0.2f, 0, 2}, quad);
@@ -31,6 +31,8 @@ struct LitScene : test::HandScene {
         addAreaLight(shared::kLightQuad, quadId, quad, {1e10f, 1, 2});
         addAreaLight(shared::kLightSphere, ballId, ball, {1e-10f, 1, 3});
         addMeshLight(mesh, {1, 2, 3});
+        for (std::uint32_t i = 0; i < 3 && isTwoSided; ++i) scene.constants.lights[i].flags |= shared::kLightTwoSided;
+        if (isTwoSided) scene.constants.quads[0].normal = -scene.constants.quads[0].normal;
         shared::Light directional{};
         directional.type = shared::kLightDirectional;
         directional.vector = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
@@ -48,7 +50,7 @@ struct LitScene : test::HandScene {
     }
 };
 
-class LightParity : public testing::Test {
+class LightParity : public testing::TestWithParam<bool> {
 protected:
     /// How the roundings of a position about the light grow in a direction and in 1 / cosine.
     struct Conditioning {
@@ -83,7 +85,7 @@ protected:
         return false;
     }
 
-    LitScene built_;
+    LitScene built_{GetParam()};
     reference::SceneView<double> scene_{built_.scene};
 };
 
@@ -101,7 +103,7 @@ std::vector<glm::vec4> samples() {
     return inputs;
 }
 
-TEST_F(LightParity, SampleAgreesForEveryLightH63H65H71) {
+TEST_P(LightParity, SampleAgreesForEveryLightH63H65H71) {
     const auto inputs = samples();
     const auto outputs = test::SceneProbe(built_.scene).run(kShader, kSample, inputs, 2, 3);
     Parity select("light/light", "selectLight", 0);
@@ -137,7 +139,7 @@ TEST_F(LightParity, SampleAgreesForEveryLightH63H65H71) {
 }
 
 // H62: spheres seen under the sun's angle and less.
-TEST_F(LightParity, ConeOfADistantSphereKeepsItsDigitsH62) {
+TEST_P(LightParity, ConeOfADistantSphereKeepsItsDigitsH62) {
     constexpr double kAllowed = 24;  // squares and dot product 8, quotient 5, root and quotient 6 + 5
     std::vector<glm::vec4> inputs;
     Stress stress(29);
@@ -156,7 +158,23 @@ TEST_F(LightParity, ConeOfADistantSphereKeepsItsDigitsH62) {
     EXPECT_GT(naive.worst(), 100 * kAllowed);
 }
 
-TEST_F(LightParity, DensityOfALightMetByChanceAgrees) {
+TEST_P(LightParity, CosineAgreesOnBothSides) {
+    std::vector<glm::vec4> inputs;
+    Stress stress(31);
+    for (int i = 0; i < 3'000; ++i) {
+        inputs.emplace_back(stress.direction(), i % 3);
+        inputs.emplace_back(stress.direction(), 0);
+    }
+    const auto outputs = test::SceneProbe(built_.scene).run(kShader, kCosine, inputs, 2, 1);
+    Parity parity("light/light", "lightCosine", 4);  // three products and two sums of terms below 1
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const auto& light = scene_.lights[std::size_t(inputs[2 * i].w)];
+        const glm::dvec3 normal(inputs[2 * i]), outgoing(inputs[2 * i + 1]);
+        EXPECT_TRUE(parity.near(outputs[i].x, reference::lightCosine(light, normal, outgoing), 1)) << i;
+    }
+}
+
+TEST_P(LightParity, DensityOfALightMetByChanceAgrees) {
     std::vector<glm::vec4> inputs;
     Stress stress(30);
     for (int i = 0; i < 6'000; ++i) {
@@ -176,6 +194,9 @@ TEST_F(LightParity, DensityOfALightMetByChanceAgrees) {
         EXPECT_TRUE(parity.near(outputs[i].x, expected, 4 * expected)) << i << ", type " << light.type;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(OneSideAndBoth, LightParity, testing::Bool(),
+                         [](const auto& info) { return info.param ? "TwoSided" : "OneSided"; });
 
 }  // namespace
 }  // namespace parhelion

@@ -107,6 +107,49 @@ TEST(LightSampling, SampledAndEvaluatedDensitiesAreOne) {
     EXPECT_GT(compared, 50'000);
 }
 
+/// A quad and a mesh that face the origin from below, or turn their backs on it.
+HandScene quadAndMesh(bool isTurned, bool isTwoSided) {
+    HandScene scene = quadLight();
+    std::vector<glm::vec3> vertices{{-2, 0, 2}, {0, 3, 2}, {-3, 0, 2.5f}, {0, 2, -3}, {1, 2, -3}, {0, 3, -3}};
+    scene.addTriangles(vertices, scene.addDiffuse(glm::vec3(0), isTurned ? shared::kShapeFlipNormal : 0u));
+    scene.addMeshLight(1, glm::vec3(1));
+    shared::SceneConstants& constants = scene.scene.constants;
+    if (isTurned) constants.quads[0].normal = -constants.quads[0].normal;
+    for (unsigned i = 0; i < 2 && isTwoSided; ++i) constants.lights[i].flags |= shared::kLightTwoSided;
+    return scene;
+}
+
+TEST(LightSampling, TwoSidesAreSampledAsTheFrontIs) {
+    // Which the tests above check: the same sample whichever side the origin is on.
+    const HandScene front = quadAndMesh(false, false), both = quadAndMesh(false, true), back = quadAndMesh(true, true);
+    const HandScene dark = quadAndMesh(true, false);
+    const SceneView<double> views[] = {SceneView<double>(both.scene), SceneView<double>(back.scene)};
+    const SceneView<double> oneSided(front.scene), turned(dark.scene);
+    IndependentNumbers numbers(7);
+    int seen = 0;
+    for (int i = 0; i < 10'000; ++i) {
+        const glm::dvec3 u(numbers.uniform<double>(), numbers.pair<double>());
+        const glm::dvec3 origin(0);
+        auto expected = sampleLight(oneSided, origin, u);
+        const auto fromBehind = sampleLight(turned, origin, u);
+        EXPECT_NE(expected.has_value(), fromBehind.has_value()) << "one side or the other";
+        if (!expected) expected = fromBehind;
+        ++seen;
+        for (const SceneView<double>& view : views) {
+            const auto sample = sampleLight(view, origin, u);
+            ASSERT_TRUE(sample);
+            EXPECT_EQ(sample->direction, expected->direction);
+            EXPECT_EQ(sample->pdf, expected->pdf);
+            EXPECT_EQ(sample->radianceOverPdf, expected->radianceOverPdf);
+            const Light<double>& light = view.lights[selectLight(view, u.x)];
+            EXPECT_EQ(
+                lightPdf(view, light, origin, sample->direction, sample->distance, flatNormal(view, sample->target)),
+                lightPdf(view, light, origin, sample->direction, sample->distance, -flatNormal(view, sample->target)));
+        }
+    }
+    EXPECT_EQ(seen, 10'000);
+}
+
 HandScene sphereLight(float radius) {
     HandScene scene;
     const std::uint32_t shape = scene.addDiffuse(glm::vec3(0));

@@ -57,6 +57,41 @@ TEST(ReferenceLight, UnitSquareHasItsFormFactor) {
         }
 }
 
+/// Turns the light's front away from the floor, where one side alone would leave it dark.
+HandScene turnedOver(HandScene scene, bool isTwoSided) {
+    shared::SceneConstants& constants = scene.scene.constants;
+    constants.quads[1].normal = -constants.quads[1].normal;
+    scene.scene.shapes[1].flags |= shared::kShapeFlipNormal;  // of the mesh
+    if (isTwoSided) constants.lights[0].flags |= shared::kLightTwoSided;
+    return scene;
+}
+
+TEST(ReferenceLight, TwoSidedUnitSquareHasItsFormFactorFromBehind) {
+    for (const bool asMesh : {false, true})
+        for (const Method method : {Method::Scattering, Method::Both}) {
+            const std::string what = std::string(asMesh ? "mesh" : "quad") + (method == Method::Both ? " both" : "");
+            const HandScene scene = turnedOver(unitSquare(method, asMesh), true);
+            expectValue(test::renderPixel(scene.scene, 400000), 3 * 0.2394564705, what);
+            expectValue(test::renderPixel(scene.scene, 400000, true), 3 * 0.2394564705, what);
+            EXPECT_EQ(test::renderPixel(turnedOver(unitSquare(method, asMesh), false).scene, 1000).mean, 0.0) << what;
+        }
+}
+
+TEST(ReferenceLight, TwoSidedSphereIsAFurnaceFromInside) {
+    // The camera and a floor of reflectance 1/2 within a sphere of radiance 2; nothing else reflects.
+    for (const Method method : {Method::Scattering, Method::Both})
+        for (const bool isFlipped : {false, true}) {
+            HandScene scene = floorScene(glm::vec3(0.5f));
+            const std::uint32_t shape = scene.addDiffuse(glm::vec3(0), isFlipped ? shared::kShapeFlipNormal : 0u);
+            const std::uint32_t id = scene.addSphere({0, 0, 0.5f}, 3, shape);
+            scene.addAreaLight(shared::kLightSphere, id, shape, glm::vec3(2), method == Method::Both);
+            scene.scene.constants.lights[0].flags |= shared::kLightTwoSided;
+            expectValue(test::renderPixel(scene.scene, 20000), 0.5 * 2, "on the floor");
+            scene.lookAlong({0, 0, 1});
+            EXPECT_EQ(test::renderPixel(scene.scene, 16).mean, 2.0);
+        }
+}
+
 TEST(ReferenceLight, AbsorptionDimsTheUnitSquare) {
     // The whole space between floor and light absorbs, sigma 0.5: 0.1402340562; the way to the camera exp(-0.25).
     for (const Method method : {Method::Scattering, Method::Both}) {

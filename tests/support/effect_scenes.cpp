@@ -38,6 +38,11 @@ std::string gradientSky(const std::string& stars) {
     <rgb name="bottom" value="0.7, 0.5, 0.3"/><rgb name="top" value="0.2, 0.4, 0.9"/>)" +
            stars + "</emitter>";
 }
+/// Faces up, away from the floor.
+const std::string kTwoSidedQuad = R"(<shape type="rectangle">
+    <transform name="to_world"><scale value="0.5"/><rotate x="1" angle="-80"/><translate x="0.3" y="1.7"/></transform>
+    <emitter type="area"><rgb name="radiance" value="6, 5, 4"/><boolean name="two_sided" value="true"/></emitter>
+</shape>)";
 
 /// A shape around a medium.
 std::string around(const std::string& medium, const std::string& shape, const std::string& transform = "") {
@@ -89,6 +94,8 @@ std::string ball(const TemporaryFolder& folder, bool flat, const std::string& tr
 
 const std::string kTwoSided = R"(<bsdf type="twosided"><bsdf type="diffuse">
     <rgb name="reflectance" value="0.3, 0.6, 0.8"/></bsdf></bsdf>)";
+const std::string kTwoSidedMesh =
+    R"(<emitter type="area"><rgb name="radiance" value="7, 6, 5"/><boolean name="two_sided" value="true"/></emitter>)";
 const std::string kMeshLight = R"(<emitter type="area"><rgb name="radiance" value="7, 6, 5"/></emitter>)";
 
 CompiledScene makeChromatic(CompiledScene scene) {
@@ -156,6 +163,8 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
         {"empty sky", compiled(kSky)},
         {"gradient sky, fog", compiled(kFloor + gradientSky("") + greyBox)},
         {"starry sky, cloud, sun", compiled(kFloor + gradientSky(kStars) + kSun + isotropicCloud)},
+        {"two-sided lights, fog",
+         compiled(kFloor + kTwoSidedQuad + kSphereLight + greyBox + ball(folder, true, smallBall, kTwoSidedMesh))},
     };
 }
 

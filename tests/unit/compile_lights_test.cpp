@@ -59,6 +59,28 @@ TEST(LightSelection, MixesUniformAndPower) {
     EXPECT_EQ(compiled.constants.shapes[1].light, 1u) << "the inline copy";
 }
 
+TEST(LightSelection, TwoSidedLightsHaveTwiceThePower) {
+    SceneDescription description = scene();
+    description.shapes = {emissive(rectangle("one side", scaling({0.5, 0.5, 1})), {1, 1, 1}),
+                          emissive(rectangle("both sides", scaling({0.5, 0.5, 1})), {1, 1, 1})};
+    description.shapes[1].emitsOnBothSides = true;
+    const CompiledScene compiled = compileScene(description);
+    const shared::Light* lights = compiled.constants.lights;
+    EXPECT_EQ(lights[0].flags, 0u);
+    EXPECT_EQ(lights[1].flags, shared::kLightTwoSided);
+    EXPECT_NEAR(lights[0].selection, 0.25 + 0.5 / 3, 0x1p-24);
+    EXPECT_NEAR(lights[1].selection, 0.25 + 1.0 / 3, 0x1p-24);
+}
+
+TEST(LightSelection, SpheresThatEmitInwardsAreSampledIfTheyEmitOutwardsAsWell) {
+    SceneDescription description = scene();
+    description.shapes = {emissive(sphere("ball", {5, 0, 0}, 0.5), {1, 1, 1})};
+    description.shapes[0].flipNormals = true;
+    EXPECT_EQ(compileScene(description).constants.lights[0].selection, 0.0f);
+    description.shapes[0].emitsOnBothSides = true;
+    EXPECT_EQ(compileScene(description).constants.lights[0].selection, 1.0f);
+}
+
 TEST(LightSelection, SumsToOneForAnyPowers) {
     for (const std::size_t count : {1u, 2u, 3u, 7u, 256u}) {
         std::vector<shared::Light> lights(count);

@@ -33,6 +33,11 @@ ShapeDescription twoSided(ShapeDescription shape) {
     return shape;
 }
 
+ShapeDescription bothSides(ShapeDescription shape) {
+    shape.emitsOnBothSides = true;
+    return shape;
+}
+
 std::vector<Case> surfaceCases() {
     ShapeDescription smooth = tetrahedron("t");
     smooth.mesh.normals.assign(4, {0, 0, 1});
@@ -51,6 +56,9 @@ std::vector<Case> surfaceCases() {
             {"depth limit", limited, {hasDepthLimit}},
             {"filter", filtered, {hasFilterTable}},
             {"area light", with({emissive(rectangle("r"), white)}), {hasSurfaces, hasQuads, hasAreaLights}},
+            {"two-sided light",
+             with({bothSides(emissive(rectangle("r"), white))}),
+             {hasSurfaces, hasQuads, hasAreaLights, hasTwoSidedLights}},
             {"two lights",
              with({emissive(rectangle("r"), white)}, {}, {light(EmitterDescription::Type::Point)}),
              {hasSurfaces, hasQuads, hasAreaLights, hasDeltaLights, hasManyLights}},

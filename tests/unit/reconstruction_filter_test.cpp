@@ -51,16 +51,17 @@ TEST(ReconstructionTable, InvertsTheTent) {
 }
 
 TEST(ReconstructionTable, InvertsTheTruncatedGaussian) {
-    for (const double s : {0.5, 1.25}) {
-        const CompiledScene compiled = compileWith(ReconstructionFilter::Gaussian, 2.0, s);
+    for (const auto& [s, radius] : {std::pair(0.5, 2.0), std::pair(1.25, 5.0), std::pair(0.5, 0.75)}) {
+        const CompiledScene compiled = compileWith(ReconstructionFilter::Gaussian, radius, s);
         expectAntisymmetric(compiled.filterTable);
-        EXPECT_FLOAT_EQ(compiled.constants.camera.filterRadius, float(4 * s));
-        // integral_0^x exp(-t^2 / 2 s^2) - exp(-8) dt
-        const auto mass = [s](double x) {
-            return s * std::sqrt(std::acos(-1.0) / 2) * std::erf(x / (s * std::sqrt(2.0))) - std::exp(-8.0) * x;
+        EXPECT_EQ(compiled.constants.camera.filterRadius, float(radius));
+        // integral_0^x exp(-t^2 / 2 s^2) - exp(-radius^2 / 2 s^2) dt
+        const auto mass = [s = s, radius = radius](double x) {
+            return s * std::sqrt(std::acos(-1.0) / 2) * std::erf(x / (s * std::sqrt(2.0))) -
+                   std::exp(-0.5 * radius * radius / (s * s)) * x;
         };
         for (int k = 0; k <= 256; ++k)
-            EXPECT_NEAR(0.5 + 0.5 * mass(compiled.filterTable[k]) / mass(4 * s), k / 256.0, kTolerance) << k;
+            EXPECT_NEAR(0.5 + 0.5 * mass(compiled.filterTable[k]) / mass(radius), k / 256.0, kTolerance) << k;
     }
 }
 

@@ -44,6 +44,13 @@ TEST(SceneDefaults, MediumWithoutPhaseFunctionIsIsotropic) {
     EXPECT_EQ(scene.media.at(0).phase.type, PhaseDescription::Type::Isotropic);
 }
 
+TEST(SceneEmitters, AreaLightsHaveOneSideUnlessToldOtherwise) {
+    EXPECT_FALSE(readShapeText(R"(<shape type="cube"><emitter type="area"/></shape>)").emitsOnBothSides);
+    EXPECT_TRUE(readShapeText(R"(<shape type="cube"><emitter type="area">
+<boolean name="two_sided" value="true"/></emitter></shape>)")
+                    .emitsOnBothSides);
+}
+
 TEST(SceneVariables, ReplaceNamesAndYieldToDefines) {
     const std::string text = sceneOf(R"(<default name="r" value="2"/><default name="r2" value="3"/>
 <shape type="sphere"><float name="radius" value="$r"/></shape>

@@ -107,9 +107,10 @@ TEST(SharedLayout, MediumIsTheSameInBothLanguages) {
 
 TEST(SharedLayout, LightIsTheSameInBothLanguages) {
     using Type = shared::Light;
-    expectLayout("Light", sizeof(Type),
-                 {MEMBER(emission), MEMBER(type), MEMBER(vector), MEMBER(primitive), MEMBER(selection),
-                  MEMBER(cumulative), MEMBER(area), MEMBER(triangleCount), MEMBER(cdfOffset), MEMBER(texture)});
+    expectLayout(
+        "Light", sizeof(Type),
+        {MEMBER(emission), MEMBER(type), MEMBER(vector), MEMBER(primitive), MEMBER(selection), MEMBER(cumulative),
+         MEMBER(area), MEMBER(triangleCount), MEMBER(cdfOffset), MEMBER(texture), MEMBER(flags)});
 }
 
 TEST(SharedLayout, TextureIsTheSameInBothLanguages) {

@@ -69,6 +69,7 @@ struct Light {
     Vec3<Real> emission, vector;
     std::uint32_t type, primitive, triangleCount, cdfOffset;
     Real selection, cumulative, area;
+    bool isTwoSided;
 };
 
 /// CompiledScene in Real: the records converted once, the large arrays referred to.
@@ -160,7 +161,7 @@ SceneView<Real>::SceneView(const CompiledScene& scene) : source(scene), constant
     for (std::uint32_t i = 0; i < c.lightCount; ++i) {
         const shared::Light& l = c.lights[i];
         lights.push_back({l.emission, l.vector, l.type, l.primitive, l.triangleCount, l.cdfOffset, Real(l.selection),
-                          Real(l.cumulative), Real(l.area)});
+                          Real(l.cumulative), Real(l.area), (l.flags & shared::kLightTwoSided) != 0});
     }
 }
 

@@ -90,11 +90,10 @@ bool surfaceVertex(const PathContext<Real, Trace>& path, const Hit<Real>& hit, V
     vertex.primitive = hit.primitive;
     const Vec3<Real> reflectance(shape.reflectance);
     vertex.strength = maxComponent(reflectance);
-    if (glm::dot(vertex.surface.geometricNormal, vertex.wo) > 0) {
-        if (shape.light != kNone)
-            addEmission(scene, scene.lights[shape.light], scene.lights[shape.light].emission, hit.t,
-                        vertex.surface.geometricNormal, state);
-    } else {
+    const Vec3<Real>& normal = vertex.surface.geometricNormal;
+    if (shape.light != kNone && lightCosine(scene.lights[shape.light], normal, vertex.wo) > 0)
+        addEmission(scene, scene.lights[shape.light], scene.lights[shape.light].emission, hit.t, normal, state);
+    if (!(glm::dot(normal, vertex.wo) > 0)) {
         if ((shape.flags & shared::kShapeTwoSided) == 0) return false;
         vertex.surface.geometricNormal = -vertex.surface.geometricNormal;
         vertex.surface.shadingNormal = -vertex.surface.shadingNormal;

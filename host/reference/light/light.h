@@ -21,11 +21,11 @@ struct LightSample {
     bool isDelta;
 };
 
-/// Cosine at a light of what leaves along `outgoing`; 0 behind, where nothing does.
-/// Reference only: spelt out where the shader needs it.
+/// Cosine at an area light of what leaves along `outgoing`: nothing does behind, unless the light has two sides.
 template <typename Real>
-Real frontCosine(const Vec3<Real>& normal, const Vec3<Real>& outgoing) {
-    return std::max(Real(0), glm::dot(normal, outgoing));
+Real lightCosine(const Light<Real>& light, const Vec3<Real>& normal, const Vec3<Real>& outgoing) {
+    const Real cosine = glm::dot(normal, outgoing);
+    return light.isTwoSided && cosine < 0 ? -cosine : std::max(Real(0), cosine);
 }
 
 /// Index of the light that u chooses: the first whose cumulative selection is above; lights.size() when none is.
@@ -50,7 +50,7 @@ std::optional<LightSample<Real>> sampleSphereLight(const SceneView<Real>& scene,
                                                    const Vec3<Real>& position, const Vec2<Real>& u) {
     const Sphere<Real>& sphere = scene.spheres[light.primitive - scene.firstSphere];
     const std::optional<Real> cone = oneMinusCosCone(sphere, position);
-    if (!cone || scene.isFlipped(sphere.shape)) return std::nullopt;
+    if (!cone || (scene.isFlipped(sphere.shape) && !light.isTwoSided)) return std::nullopt;
     const Frame<Real> frame = frameFromNormal(glm::normalize(sphere.center - position));
     const Vec3<Real> direction = glm::normalize(toWorld(frame, uniformCone(u, *cone)));
     const auto interval = sphereInterval(sphere, position, direction);
@@ -70,7 +70,7 @@ std::optional<LightSample<Real>> sampleArea(const Light<Real>& light, const Vec3
     if (distance2 == 0) return std::nullopt;
     const Real distance = std::sqrt(distance2);
     const Vec3<Real> direction = toLight / distance;
-    const Real cosine = frontCosine(normal, -direction);
+    const Real cosine = lightCosine(light, normal, -direction);
     if (cosine == 0) return std::nullopt;
     const Real pdf = light.selection * distance2 / (area * cosine);
     return LightSample<Real>{direction, distance, primitive, light.emission / pdf, pdf, false};
@@ -158,7 +158,7 @@ Real lightPdf(const SceneView<Real>& scene, const Light<Real>& light, const Vec3
         return cone ? light.selection / (2 * kPi<Real> * *cone) : Real(0);
     }
     const Real area = light.type == shared::kLightQuad ? scene.quads[light.primitive].area : light.area;
-    return light.selection * distance * distance / (area * frontCosine(normal, -direction));
+    return light.selection * distance * distance / (area * lightCosine(light, normal, -direction));
 }
 
 }  // namespace parhelion::reference

@@ -1,0 +1,110 @@
+#include "scene/nori_emitters.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "scene/transforms.h"
+
+namespace parhelion {
+namespace {
+
+using Type = EmitterDescription::Type;
+
+bool surrounds(const EmitterDescription& emitter) {
+    return emitter.type != Type::Directional && emitter.type != Type::Point;
+}
+
+glm::dvec3 readDirection(PropertyReader& reader, const char* name, glm::dvec3 fallback) {
+    const glm::dvec3 direction = reader.triple(name, fallback);
+    const double length = glm::length(direction);
+    if (!(length > 0.0 && length < 1e150))
+        reader.fail(reader.whereOf(name), fmt::format("\"{}\" must not be zero or longer than 1e150", name));
+    return direction / length;
+}
+
+/// The one of two names that was given; the first when neither was.
+const char* givenName(const PropertyReader& reader, const char* name, const char* alias) {
+    if (!reader.has(alias)) return name;
+    if (reader.has(name))
+        reader.fail(reader.whereOf(alias), fmt::format("give either \"{}\" or \"{}\", not both", name, alias));
+    return alias;
+}
+
+void readDirectional(PropertyReader& reader, EmitterDescription& emitter) {
+    emitter.type = Type::Directional;
+    emitter.value = reader.color(givenName(reader, "radiance", "irradiance"), 1.0, kNonNegative);
+    emitter.vector = readDirection(reader, "direction", {0.0, 0.0, 1.0});
+}
+
+/// `power` is the light's flux, as in Nori's exercises.
+void readPoint(PropertyReader& reader, EmitterDescription& emitter) {
+    emitter.type = Type::Point;
+    const std::string name = givenName(reader, "power", "intensity");
+    emitter.value = reader.color(name, 1.0, kNonNegative);
+    if (name == "power") emitter.value /= 4.0 * std::numbers::pi;
+    emitter.vector = reader.triple("position", glm::dvec3(0.0));
+}
+
+/// The map's orientation is the baseline's: Mitsuba's, turned by -90 degrees about +y.
+void readMap(ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
+    emitter.type = Type::EnvironmentMap;
+    emitter.value = reader.color("scale", 1.0, kNonNegative);
+    emitter.toWorld = reader.transform("toWorld").matrix * rotationMatrix({0.0, 1.0, 0.0}, -90.0);
+    constexpr double kTolerance = 1e-4;
+    const Similarity similarity = similarityOf(emitter.toWorld);
+    if (!similarity.holds || std::abs(similarity.scale - 1.0) > kTolerance)
+        reader.fail(reader.whereOf("toWorld"), "\"toWorld\" of an environment map must not scale or shear");
+    if (glm::dvec3(emitter.toWorld[3]) != glm::dvec3(0.0))
+        context.note(reader.whereOf("toWorld"),
+                     "the translation of an environment map, infinitely far away, has no effect");
+    const std::filesystem::path file = reader.file("filename");
+    emitter.map = readBitmap(file, reader.whereOf("filename"));
+}
+
+void readSky(PropertyReader& reader, EmitterDescription& emitter) {
+    emitter.type = Type::Sky;
+    SkyDescription& sky = emitter.sky;
+    sky.axis = readDirection(reader, "axis", sky.axis);
+    constexpr NumberRange kOffset{-1e30, 1e30, false, false, "be in [-1e30, 1e30]"};
+    sky.offset = reader.number("offset", sky.offset, kOffset);
+    sky.width = reader.number("width", sky.width, kNonNegative);
+    sky.power = reader.number("power", sky.power, kNonNegative);
+    sky.top = reader.color(givenName(reader, "top", "topColor"), 1.0, kNonNegative);
+    sky.bottom = reader.color(givenName(reader, "bottom", "bottomColor"), 0.0, kNonNegative);
+    constexpr NumberRange kStarSize{1e-3, 10.0, false, false, "be in [0.001, 10] degrees"};
+    sky.starDensity = reader.number("starDensity", sky.starDensity, kNonNegative);
+    sky.starSizeDegrees = reader.number("starSize", sky.starSizeDegrees, kStarSize);
+    sky.starRadiance = reader.color("starBrightness", 1.0, kNonNegative);
+    sky.starSeed = static_cast<std::uint32_t>(reader.integer("starSeed", 0, 0, 0xffffffffLL));
+}
+
+}  // namespace
+
+void readNoriEmitter(ReadContext& context, const XmlElement& element) {
+    PropertyReader reader(context.tree, element);
+    EmitterDescription emitter;
+    emitter.where = reader.where();
+    if (reader.type() == "envmap") {
+        readMap(context, reader, emitter);
+    } else if (reader.type() == "infinite") {
+        readSky(reader, emitter);
+    } else if (reader.type() == "constant") {
+        emitter.value = reader.color("radiance", 1.0, kNonNegative);
+    } else if (reader.type() == "directional") {
+        readDirectional(reader, emitter);
+    } else if (reader.type() == "point") {
+        readPoint(reader, emitter);
+    } else if (reader.type() == "area") {
+        reader.fail(reader.where(), "must be nested in a <mesh>");
+    } else {
+        reader.rejectType({"envmap", "infinite", "constant", "directional", "point"});
+    }
+    reader.finish();
+    const auto other = std::ranges::find_if(context.scene.emitters, surrounds);
+    if (surrounds(emitter) && other != context.scene.emitters.end())
+        reader.fail(reader.where(),
+                    fmt::format("only one emitter may surround the scene; the first is at {}", other->where.text()));
+    context.scene.emitters.push_back(std::move(emitter));
+}
+
+}  // namespace parhelion
