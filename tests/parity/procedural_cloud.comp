@@ -4,19 +4,9 @@
 #include "volume/procedural_cloud.glsl"
 
 CloudArguments cloudOfInputs() {
-    CloudArguments cloud;
-    cloud.frequency = probeInput(1u).xyz;
-    cloud.blend = probeInput(1u).w;
-    cloud.sharpness = probeInput(2u).x;
-    cloud.detailAmount = probeInput(2u).y;
-    cloud.warpAmount = probeInput(2u).z;
-    cloud.erosionAmount = probeInput(2u).w;
-    cloud.densityScale = probeInput(3u).x;
-    cloud.densityThreshold = probeInput(3u).y;
-    cloud.inverseLargest = probeInput(3u).z;
-    cloud.noiseSeed = uint(probeInput(3u).w);
-    cloud.modulates = 0u;
-    return cloud;
+    vec4 grid = probeInput(1u), noise = probeInput(2u), density = probeInput(3u);
+    return CloudArguments(grid.xyz, grid.w, vec3(0.0), noise.x, noise.y, noise.z, noise.w, density.x, density.y,
+                          density.z, uint(density.w), 0u, uvec3(0u), 0u, 0u);
 }
 
 void probeNoise() {
