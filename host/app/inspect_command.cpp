@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/cloud_reports.h"
 #include "app/exit_codes.h"
 #include "app/scene_inventory.h"
 #include "compile/compile_scene.h"
@@ -14,6 +15,7 @@ CLI::App* addInspectCommand(CLI::App& program, InspectArguments& arguments) {
     CLI::App* command =
         program.add_subcommand("inspect", "Show what a scene holds, what it costs and which effects it calls for");
     addSceneOptions(*command, arguments.scene);
+    command->add_flag("--bake-error", arguments.bakeError, kBakeErrorHelp);
     command->add_flag("--json", arguments.json, "print as JSON");
     command->footer(
         "Examples:\n"
@@ -25,12 +27,17 @@ CLI::App* addInspectCommand(CLI::App& program, InspectArguments& arguments) {
 int runInspectCommand(const InspectArguments& arguments) {
     CompileOptions options;
     options.size = arguments.scene.size;
-    const CompiledScene scene = compileScene(readScene(arguments.scene), options);
-    const SceneInventory inventory = takeInventory(scene);
-    if (arguments.json)
-        fmt::print("{}\n", toJson(inventory).dump(2));
-    else
-        fmt::print("{}", describe(inventory));
+    SceneDescription description = readScene(arguments.scene);
+    const std::vector<CloudBakeReport> clouds =
+        bakeClouds(description, twinBaker(), {.measureError = arguments.bakeError});
+    const SceneInventory inventory = takeInventory(compileScene(description, options));
+    if (arguments.json) {
+        nlohmann::ordered_json json = toJson(inventory);
+        json["clouds"] = toJson(clouds);
+        fmt::print("{}\n", json.dump(2));
+    } else {
+        fmt::print("{}{}", describe(clouds), describe(inventory));
+    }
     return kExitSuccess;
 }
 

@@ -6,7 +6,7 @@ namespace parhelion::app {
 
 struct InspectArguments {
     SceneArguments scene;
-    bool json = false;
+    bool json = false, bakeError = false;
 };
 
 CLI::App* addInspectCommand(CLI::App& program, InspectArguments& arguments);

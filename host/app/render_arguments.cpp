@@ -1,3 +1,4 @@
+#include "app/cloud_reports.h"
 #include "app/render_command.h"
 
 namespace parhelion::app {
@@ -75,6 +76,7 @@ CLI::App* addRenderCommand(CLI::App& program, RenderArguments& arguments) {
     addImageOptions(*command, arguments);
     addDeviceOptions(*command, arguments);
     addQualityOptions(*command, arguments);
+    command->add_flag("--bake-error", arguments.bakeError, kBakeErrorHelp);
     command->add_flag("--allow-anomalies", arguments.allowAnomalies,
                       "exit with 0 although samples were dropped as not finite or majorants violated");
     command->add_flag("--json", arguments.json, "print the report as JSON");

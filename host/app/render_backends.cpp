@@ -26,11 +26,9 @@ void beginRendering(const CompiledScene& scene, const RenderSettings& settings, 
 
 }  // namespace
 
-RenderOutcome renderWithVulkan(const CompiledScene& scene, const RenderSettings& settings,
-                               const gpu::DeviceOptions& options, Interruption& interruption,
-                               ProgressDisplay& progress) {
+RenderOutcome renderWithVulkan(gpu::Device& device, const CompiledScene& scene, const RenderSettings& settings,
+                               Interruption& interruption, ProgressDisplay& progress) {
     const auto start = std::chrono::steady_clock::now();
-    gpu::Device device(options);
     render::Renderer renderer(device, scene, settings);
     RenderOutcome outcome;
     outcome.device = device.info().name;

@@ -19,10 +19,9 @@ struct RenderOutcome {
 };
 
 /// Renders on a Vulkan device until done or interrupted. Interruptions before the first sample end the process.
-/// @throws InputError for a device name that fits none, RuntimeFailure for a failing device.
-RenderOutcome renderWithVulkan(const CompiledScene& scene, const RenderSettings& settings,
-                               const gpu::DeviceOptions& options, Interruption& interruption,
-                               ProgressDisplay& progress);
+/// @throws RuntimeFailure for a failing device.
+RenderOutcome renderWithVulkan(gpu::Device& device, const CompiledScene& scene, const RenderSettings& settings,
+                               Interruption& interruption, ProgressDisplay& progress);
 
 /// Renders with the CPU reference in Real = float or double.
 template <typename Real>

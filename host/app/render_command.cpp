@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/cloud_reports.h"
 #include "app/error_estimate.h"
 #include "app/exit_codes.h"
 #include "app/render_backends.h"
@@ -67,8 +69,7 @@ void requireMemory(glm::uvec2 pixels) {
                                      formatSize(pixels), formatBytes(needed), formatBytes(allowed)));
 }
 
-CompiledScene compile(const RenderArguments& arguments) {
-    const SceneDescription description = readScene(arguments.scene);
+CompiledScene compile(const RenderArguments& arguments, const SceneDescription& description) {
     CompileOptions options;
     options.size = arguments.scene.size;
     options.maxDepth = arguments.maxDepth;
@@ -100,8 +101,20 @@ RenderSettings chooseSettings(const RenderArguments& arguments, const CompiledSc
     return settings;
 }
 
-RenderOutcome runBackend(const RenderArguments& arguments, const CompiledScene& scene, const RenderSettings& settings,
-                         Interruption& interruption, ProgressDisplay& progress) {
+/// Opens the device, if one is to render. @throws InputError for a name that fits none.
+std::unique_ptr<gpu::Device> openDevice(const RenderArguments& arguments) {
+    if (arguments.backend != Backend::Vulkan) return nullptr;
+    return std::make_unique<gpu::Device>(
+        gpu::DeviceOptions{.name = arguments.device, .vectorBits = arguments.vectorBits.value_or(0)});
+}
+
+std::vector<CloudBakeReport> bake(const RenderArguments& arguments, gpu::Device* device,
+                                  SceneDescription& description) {
+    return bakeClouds(description, device ? deviceBaker(*device) : twinBaker(), {.measureError = arguments.bakeError});
+}
+
+RenderOutcome runBackend(const RenderArguments& arguments, gpu::Device* device, const CompiledScene& scene,
+                         const RenderSettings& settings, Interruption& interruption, ProgressDisplay& progress) {
     switch (arguments.backend) {
         case Backend::Reference:
             return renderWithReference<float>(scene, settings, interruption, progress);
@@ -110,12 +123,12 @@ RenderOutcome runBackend(const RenderArguments& arguments, const CompiledScene& 
         case Backend::Vulkan:
             break;
     }
-    const gpu::DeviceOptions options{.name = arguments.device, .vectorBits = arguments.vectorBits.value_or(0)};
-    return renderWithVulkan(scene, settings, options, interruption, progress);
+    return renderWithVulkan(*device, scene, settings, interruption, progress);
 }
 
 RenderReport makeReport(const RenderArguments& arguments, const OutputFiles& files, const CompiledScene& scene,
-                        const RenderSettings& settings, const RenderOutcome& outcome) {
+                        const RenderSettings& settings, const RenderOutcome& outcome,
+                        std::vector<CloudBakeReport> clouds) {
     static constexpr const char* kBackendNames[] = {"vulkan", "reference", "reference-double"};
     return {.scene = arguments.scene.file,
             .exr = files.exr.string(),
@@ -135,6 +148,7 @@ RenderReport makeReport(const RenderArguments& arguments, const OutputFiles& fil
             .effects = settings.effects,
             .quality = settings.quality,
             .counters = outcome.film.counters,
+            .clouds = std::move(clouds),
             .notes = scene.notes};
 }
 
@@ -161,19 +175,22 @@ int runRenderCommand(const RenderArguments& arguments) {
     Interruption interruption;
     if (arguments.backend != Backend::Vulkan) refuseVulkanOptions(arguments);
     const OutputFiles files = prepareOutputs(arguments);
-    const CompiledScene scene = compile(arguments);
+    SceneDescription description = readScene(arguments.scene);
+    const std::unique_ptr<gpu::Device> device = openDevice(arguments);
+    std::vector<CloudBakeReport> clouds = bake(arguments, device.get(), description);
+    const CompiledScene scene = compile(arguments, description);
     requireMemory(scene.cropSize);
     const RenderSettings settings = chooseSettings(arguments, scene);
     if (!arguments.quiet)
         for (const std::string& note : scene.notes) fmt::print(stderr, "parhelion: note: {}\n", note);
     ProgressDisplay progress(stderr, arguments.quiet);
-    const RenderOutcome outcome = runBackend(arguments, scene, settings, interruption, progress);
+    const RenderOutcome outcome = runBackend(arguments, device.get(), scene, settings, interruption, progress);
     requireCompleteTraversals(outcome.film);
     if (outcome.film.samples == 0) {
         fmt::print(stderr, "parhelion: interrupted before the first samples were done; nothing was written\n");
         return kExitInterrupted;
     }
-    const RenderReport report = makeReport(arguments, files, scene, settings, outcome);
+    const RenderReport report = makeReport(arguments, files, scene, settings, outcome, std::move(clouds));
     Image image = toImage(outcome.film);
     addAttributes(report, image);
     {

@@ -30,7 +30,7 @@ struct RenderArguments {
     std::optional<bool> sobol;
 
     double exposure = 0;
-    bool allowAnomalies = false, json = false, quiet = false;
+    bool allowAnomalies = false, bakeError = false, json = false, quiet = false;
 };
 
 CLI::App* addRenderCommand(CLI::App& program, RenderArguments& arguments);

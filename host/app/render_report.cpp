@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/cloud_reports.h"
 #include "app/effect_names.h"
 #include "app/text_format.h"
 
@@ -81,6 +82,7 @@ nlohmann::ordered_json toJson(const RenderReport& report) {
         {"quality", qualityKey(report.quality)},
         {"anomalies", report.hasAnomalies()},
         {"counters", nlohmann::ordered_json::object()},
+        {"clouds", toJson(report.clouds)},
         {"notes", report.notes},
     };
     if (report.relativeError) json["relativeError"] = *report.relativeError;
@@ -99,6 +101,7 @@ std::string describe(const RenderReport& report) {
                         formatDuration(report.prepareSeconds));
     text +=
         fmt::format("samples   {} per pixel, {} samples/s\n", report.samples, formatCount(report.samplesPerSecond()));
+    text += describe(report.clouds);
     if (report.relativeError)
         text += fmt::format("error     {} of the image's mean, by its own variance\n",
                             formatPercent(*report.relativeError));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/bake_clouds.h"
 #include "compile/render_settings.h"
 #include "image/image.h"
 #include "shared/path_types.h"
@@ -22,12 +23,13 @@ struct RenderReport {
     std::uint64_t samples = 0;                           ///< per pixel, taken
     std::uint64_t samplesWanted = 0;
     std::uint32_t seed = 0;
-    double prepareSeconds = 0;            ///< opening the device, building pipelines, uploading
+    double prepareSeconds = 0;            ///< building pipelines, uploading
     double seconds = 0;                   ///< rendering
     std::optional<double> relativeError;  ///< see estimateRelativeError
     EffectSet effects;
     Quality quality;
     std::array<std::uint64_t, shared::kCounterCount> counters{};
+    std::vector<CloudBakeReport> clouds;
     std::vector<std::string> notes;
 
     bool interrupted() const { return samples < samplesWanted; }

@@ -156,6 +156,9 @@ DensityPlan planStorage(std::span<const MediumDescription* const> media, std::si
 std::vector<bool> findEmptyMedia(const SceneDescription& description, std::vector<std::string>& notes) {
     std::vector<bool> empty;
     for (const MediumDescription& medium : description.media) {
+        if (medium.density && medium.density->cloud)
+            throw InputError(medium.density->where,
+                             nameOf(medium) + ": a procedural cloud must be baked (bakeClouds) before it is compiled");
         const bool noExtinction = !(float(largest(medium.sigmaT)) > 0.0f);
         if (medium.density && medium.density->volume.channels != 1)
             throw InputError(medium.density->where,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/read_cloud.h"
 #include "scene/transforms.h"
 #include "volume/volume_file.h"
 
@@ -70,6 +71,10 @@ ReadVolume readVolumePlugin(ReadContext& context, const XmlElement& element, Vol
     } else if (reader.type() == "constvolume") {
         result.constant = reader.color("value", 1.0, role == VolumeRole::Albedo ? kUnitInterval : kNonNegative);
         reader.finish();
+    } else if (reader.type() == "procedural_cloud" && role == VolumeRole::Extinction) {
+        result.grid = readProceduralCloud(context, reader);
+    } else if (role == VolumeRole::Extinction) {
+        reader.rejectType({"gridvolume", "constvolume", "procedural_cloud"});
     } else {
         reader.rejectType({"gridvolume", "constvolume"});
     }

@@ -13,7 +13,7 @@ struct ReadVolume {
     std::optional<GridPlacement> grid;
 };
 
-/// Reads <volume type="constvolume"> or "gridvolume", with the file a grid names.
+/// Reads <volume type="constvolume">, "gridvolume", with the file a grid names, or "procedural_cloud" (extinction).
 /// @throws InputError also for three-channel extinction and for albedos outside [0, 1].
 ReadVolume readVolumePlugin(ReadContext& context, const XmlElement& element, VolumeRole role);
 

@@ -39,6 +39,31 @@ float expNegative(float x) {
     return x < -87.0 ? 0.0 : p * scale;
 }
 
+// Of the two floats around a square root s good to 1 ulp: the nearer neighbour, or s.
+// Shader only: the driver's sqrt need not be rounded correctly. (Dekker's product gives s * s exactly.)
+float roundSqrtStep(float x, float s) {
+    precise float big = 4097.0 * s;
+    precise float high = big - (big - s);
+    precise float low = s - high;
+    precise float square = s * s;
+    precise float tail = ((high * high - square) + 2.0 * high * low) + low * low;
+    precise float rest = (x - square) - tail;  // x - s * s, exactly
+    int bits = floatBitsToInt(s);
+    precise float above = intBitsToFloat(bits + 1) - s;
+    precise float below = s - intBitsToFloat(bits - 1);
+    precise float up = s * above;
+    precise float down = s * below;
+    return intBitsToFloat(rest > up ? bits + 1 : rest <= -down ? bits - 1 : bits);
+}
+
+// Square root rounded to nearest, on every device, for x = 0 or in [2^-60, 2^60].
+float roundedSqrt(float x) {
+    float s = sqrt(x);
+    s = roundSqrtStep(x, s);
+    s = roundSqrtStep(x, s);
+    return x == 0.0 ? 0.0 : s;
+}
+
 // (sin, cos) of 2 pi u for u in [0, 1], within 1.5 ulp of the larger one. The reduction is exact:
 // 4 u and its distance from the nearest integer have no rounding.
 vec2 sinCosTurn(float u) {

@@ -9,5 +9,6 @@ void probeItem() {
         case 1u: probeOutput(0u, vec4(logPositive(x.x), log(x.x), 0.0, 0.0)); break;
         case 2u: probeOutput(0u, vec4(expNegative(x.x), exp(x.x), 0.0, 0.0)); break;
         case 3u: probeOutput(0u, vec4(sinCosTurn(x.x), 0.0, 0.0)); break;
+        case 4u: probeOutput(0u, vec4(roundedSqrt(x.x), roundSqrtStep(x.x, x.y), sqrt(x.x), 0.0)); break;
     }
 }

@@ -15,7 +15,7 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/math.comp";
-enum Function : std::uint32_t { kDivideAndMax, kLog, kExp, kSinCos };
+enum Function : std::uint32_t { kDivideAndMax, kLog, kExp, kSinCos, kSqrt };
 
 std::vector<glm::vec4> firstComponents(const std::vector<float>& values) {
     std::vector<glm::vec4> inputs;
@@ -105,6 +105,24 @@ TEST(MathParity, SinAndCosOfTurnsLoseNothingToTheAngle) {
         naive.add(std::sin(6.28318530718f * inputs[i].x), expected.x, 1);
     }
     EXPECT_GT(naive.worst(), kAllowed);
+}
+
+// Also where the driver's root is off by one to either side, which the software driver's never is.
+TEST(MathParity, SquareRootIsRoundedToNearest) {
+    Stress stress(7);
+    std::vector<glm::vec4> inputs{{0, 0, 0, 0}, {1, 1, 0, 0}, {0x1.fffffep-1f, 1, 0, 0}, {0x1.fffffcp1f, 2, 0, 0}};
+    for (int i = 0; i < 20'000; ++i) {
+        const float x = stress.magnitude(0x1p-60f, 0x1p60f), near = std::sqrt(x);
+        inputs.emplace_back(x, std::nextafter(near, i % 2 ? 0.0f : INFINITY), 0, 0);
+        inputs.emplace_back(near * near, near, 0, 0);  // next to an exact square
+    }
+    const auto outputs = test::probe(kShader, kSqrt, inputs);
+    Parity parity("core/math", "roundedSqrt", 0);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const float expected = reference::roundedSqrt(inputs[i].x);
+        EXPECT_TRUE(parity.near(outputs[i].x, expected)) << inputs[i].x;
+        if (inputs[i].y > 0) EXPECT_EQ(outputs[i].y, expected) << inputs[i].x << " from " << inputs[i].y;
+    }
 }
 
 }  // namespace

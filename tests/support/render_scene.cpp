@@ -4,6 +4,8 @@
 #include <cstring>
 #include <span>
 
+#include "compile/bake_clouds.h"
+#include "reference/cloud_baker.h"
 #include "render/renderer.h"
 #include "scene/scene_description.h"
 #include "support/gpu_fixture.h"
@@ -49,7 +51,9 @@ CompiledScene compileFile(const std::filesystem::path& file, glm::uvec2 size,
                           const std::map<std::string, std::string>& defines) {
     CompileOptions options;
     options.size = size;
-    return compileScene(readScene(file, {.defines = defines}), options);
+    SceneDescription description = readScene(file, {.defines = defines});
+    bakeClouds(description, {.bake = reference::bakeCloud<float>, .evaluate = {}});
+    return compileScene(description, options);
 }
 
 CompiledScene compileText(const std::string& text, glm::uvec2 size, CompileOptions options) {

@@ -142,6 +142,15 @@ TEST(SharedLayout, CloudFieldIsTheSameInBothLanguages) {
          MEMBER(densityScale), MEMBER(densityThreshold), MEMBER(noiseSeed), MEMBER(resolution), MEMBER(modulates)});
 }
 
+TEST(SharedLayout, CloudArgumentsAreTheSameInBothLanguages) {
+    using Type = shared::CloudArguments;
+    expectLayout("CloudArguments", sizeof(Type),
+                 {MEMBER(frequency), MEMBER(blend), MEMBER(voxelSize), MEMBER(sharpness), MEMBER(detailAmount),
+                  MEMBER(warpAmount), MEMBER(erosionAmount), MEMBER(densityScale), MEMBER(densityThreshold),
+                  MEMBER(inverseLargest), MEMBER(noiseSeed), MEMBER(modulates), MEMBER(resolution), MEMBER(firstVoxel),
+                  MEMBER(voxelCount)});
+}
+
 TEST(SharedLayout, CameraIsTheSameInBothLanguages) {
     using Type = shared::Camera;
     expectLayout("Camera", sizeof(Type),

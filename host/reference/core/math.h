@@ -41,6 +41,12 @@ Real expNegative(Real x) {
     return std::exp(x);
 }
 
+/// sqrt(x) rounded to nearest.
+template <typename Real>
+Real roundedSqrt(Real x) {
+    return std::sqrt(x);
+}
+
 /// (sin, cos) of 2 pi u, u in [0, 1).
 template <typename Real>
 Vec2<Real> sinCosTurn(Real u) {
