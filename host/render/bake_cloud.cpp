@@ -42,7 +42,7 @@ std::vector<float> bakeCloud(gpu::Device& device, const shared::CloudField& fiel
     gpu::Buffer baseBuffer = device.createBuffer(base.empty() ? 0 : slab * sizeof(float));
     gpu::Buffer densityBuffer = device.createBuffer(slab * sizeof(float));
     gpu::ComputePipeline pipeline(device, gpu::shaderFolder() / "kernels/bake_cloud.comp",
-                                  {{0u, field.modulates != 0}});
+                                  {{128u, field.modulates != 0}});
     const gpu::Binding bindings[] = {{.index = 0, .buffer = baseBuffer.handle()},
                                      {.index = 1, .buffer = densityBuffer.handle()}};
     pipeline.bind(bindings);

@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { CloudArguments arguments; };
 layout(set = 0, binding = 0, scalar) readonly buffer BaseBlock { float base[]; };
 layout(set = 0, binding = 1, scalar) writeonly buffer DensityBlock { float density[]; };
-layout(constant_id = 0) const bool modulates = false;
+layout(constant_id = 128) const bool modulates = false;  // clear of effects and quality
 
 void main() {
     uint lane = gl_GlobalInvocationID.x;
