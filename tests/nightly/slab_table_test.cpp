@@ -68,13 +68,15 @@ TEST_P(DualSlab, HoldsTo2PerMilleAlone) {
     EXPECT_GE(found, 1u);
 }
 
+std::string nameOfDual(const testing::TestParamInfo<std::tuple<Backend, double, bool>>& info) {
+    const auto [backend, mu, litFromAbove] = info.param;
+    return fmt::format("{}{}{}", name(backend), mu == 1 ? "Normal" : "Slanted",
+                       litFromAbove ? "Reflected" : "Transmitted");
+}
+
 INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, DualSlab,
                          testing::Combine(testing::ValuesIn(kBackends), testing::Values(1.0, 0.5), testing::Bool()),
-                         [](const auto& info) {
-                             const auto [backend, mu, litFromAbove] = info.param;
-                             return fmt::format("{}{}{}", name(backend), mu == 1 ? "Normal" : "Slanted",
-                                                litFromAbove ? "Reflected" : "Transmitted");
-                         });
+                         nameOfDual);
 
 INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, SlabTable,
                          testing::Combine(testing::ValuesIn(kBackends), testing::Values(1e-3, 1.0, 1e3),
