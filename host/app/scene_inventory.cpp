@@ -24,12 +24,26 @@ double occupancyOf(const CompiledScene& scene, const shared::Medium& medium) {
     return count > 0 ? static_cast<double>(occupied) / static_cast<double>(count) : 0;
 }
 
+std::string describePhase(const shared::Medium& medium) {
+    switch (medium.phase) {
+        case shared::kPhaseHenyeyGreenstein:
+            return fmt::format("Henyey-Greenstein, g = {}", medium.g);
+        case shared::kPhaseDualHenyeyGreenstein:
+            return fmt::format("dual Henyey-Greenstein, g = {} (weight {:.6g}) and {}", medium.g, medium.lobeWeight,
+                               medium.g2);
+        case shared::kPhaseRayleigh:
+            return "Rayleigh";
+        case shared::kPhaseTabulated:
+            return fmt::format("table of {} values", medium.phaseCount + 1);
+        default:
+            return "isotropic";
+    }
+}
+
 MediumEntry describeMedium(const CompiledScene& scene, const shared::Medium& medium) {
     const bool homogeneous = (medium.flags & shared::kMediumHomogeneous) != 0;
     MediumEntry entry{.type = homogeneous ? "homogeneous" : "grid",
-                      .phase = medium.phase == shared::kPhaseIsotropic
-                                   ? "isotropic"
-                                   : fmt::format("Henyey-Greenstein, g = {}", medium.g),
+                      .phase = describePhase(medium),
                       .extinction = medium.sigmaMax * medium.sigmaRatio,
                       .albedo = medium.albedo};
     if (!homogeneous) {

@@ -18,7 +18,7 @@ struct LightEntry {
 
 struct MediumEntry {
     std::string type;      ///< "homogeneous" or "grid"
-    std::string phase;     ///< "isotropic" or "Henyey-Greenstein, g = ..."
+    std::string phase;     ///< "isotropic", "Henyey-Greenstein, g = ...", ...
     glm::vec3 extinction;  ///< at density 1 [1/scene unit]
     glm::vec3 albedo;
     glm::uvec3 resolution{0};  ///< voxels; 0 without a grid

@@ -115,8 +115,8 @@ private:
         };
         const std::size_t anisotropic = countPhase(shared::kPhaseHenyeyGreenstein);
         decide(Effect::hasHenyeyGreenstein, anisotropic > 0,
-               countOf(anisotropic, "anisotropic phase function", "anisotropic phase functions"),
-               "every phase function is isotropic");
+               countOf(anisotropic, "Henyey-Greenstein phase function", "Henyey-Greenstein phase functions"),
+               "no Henyey-Greenstein phase function of one lobe");
         decide(Effect::hasDualHenyeyGreenstein, countPhase(shared::kPhaseDualHenyeyGreenstein) > 0,
                "a medium scatters in two lobes", "no phase function of two lobes");
         decide(Effect::hasRayleigh, countPhase(shared::kPhaseRayleigh) > 0, "a medium scatters as small particles do",

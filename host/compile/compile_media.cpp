@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "compile/compile_phase.h"
 #include "compile/density_storage.h"
 #include "compile/majorant_grid.h"
 #include "compile/transforms.h"
@@ -14,7 +15,6 @@ namespace parhelion {
 
 namespace {
 
-constexpr float kLargestG = 1.0f - 0x1p-20f;               // numerics.md H1
 constexpr std::size_t kMaxTexels = std::size_t(1) << 27;   // of a texel buffer
 constexpr std::size_t kMaxDensityVoxels = 4 * kMaxTexels;  // four voxels a texel
 
@@ -37,18 +37,6 @@ void writeExtinction(const MediumDescription& medium, shared::Medium& record) {
     const glm::vec3 sigmaT = toFloat(medium.sigmaT, medium.where, nameOf(medium) + ": sigma_t");
     record.sigmaMax = std::max({sigmaT.x, sigmaT.y, sigmaT.z});
     for (int c = 0; c < 3; ++c) record.sigmaRatio[c] = float(medium.sigmaT[c] / largest(medium.sigmaT));
-}
-
-void writePhase(const MediumDescription& medium, shared::Medium& record, std::vector<std::string>& notes) {
-    record.phase = shared::kPhaseIsotropic;
-    if (medium.phase.type == PhaseDescription::Type::Isotropic || medium.phase.g == 0.0) return;
-    record.phase = shared::kPhaseHenyeyGreenstein;
-    record.g = std::clamp(float(medium.phase.g), -kLargestG, kLargestG);
-    if (std::abs(medium.phase.g) > double(kLargestG))
-        notes.push_back(
-            fmt::format("{}: g = {} was limited to {} (1 - 2^-20), the largest that single precision "
-                        "resolves",
-                        nameOf(medium), medium.phase.g, record.g));
 }
 
 void checkAlbedo(const glm::dvec3& albedo, const SourceLocation& where, const std::string& subject) {
@@ -185,7 +173,7 @@ void compileMedia(std::span<const MediumDescription* const> media, const glm::dv
     for (const MediumDescription* medium : media) {
         shared::Medium record{};
         writeExtinction(*medium, record);
-        writePhase(*medium, record, scene.notes);
+        compilePhase(medium->phase, nameOf(*medium), record, scene);
         writeAlbedo(*medium, worldOrigin, record, scene);
         writeDensity(*medium, worldOrigin, plan.bricked, record, scene);
         scene.constants.media[scene.constants.mediumCount++] = record;

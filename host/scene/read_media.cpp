@@ -1,5 +1,6 @@
 #include "scene/read_media.h"
 
+#include "scene/read_phase.h"
 #include "scene/read_volumes.h"
 
 namespace parhelion {
@@ -48,21 +49,6 @@ void readAlbedo(ReadContext& context, PropertyReader& reader, MediumDescription&
 }
 
 }  // namespace
-
-PhaseDescription readPhase(const ReadContext& context, const XmlElement& element) {
-    PropertyReader reader(context.tree, element);
-    PhaseDescription phase;
-    phase.where = reader.where();
-    if (reader.type() == "hg") {
-        constexpr NumberRange kCosine{-1.0, 1.0, true, true, "be in (-1, 1)"};
-        phase.type = PhaseDescription::Type::HenyeyGreenstein;
-        phase.g = reader.number("g", 0.8, kCosine);
-    } else if (reader.type() != "isotropic") {
-        reader.rejectType({"isotropic", "hg"});
-    }
-    reader.finish();
-    return phase;
-}
 
 MediumDescription readMedium(ReadContext& context, const XmlElement& element) {
     PropertyReader reader(context.tree, element);

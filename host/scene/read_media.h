@@ -10,7 +10,4 @@ std::size_t mediumIndex(ReadContext& context, const XmlElement& element);
 /// Reads a <medium> without adding it to the scene.
 MediumDescription readMedium(ReadContext& context, const XmlElement& element);
 
-/// Reads a <phase>.
-PhaseDescription readPhase(const ReadContext& context, const XmlElement& element);
-
 }  // namespace parhelion

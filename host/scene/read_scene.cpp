@@ -4,6 +4,7 @@
 #include "scene/read_emitters.h"
 #include "scene/read_integrator.h"
 #include "scene/read_media.h"
+#include "scene/read_phase.h"
 #include "scene/read_sensor.h"
 #include "scene/read_shapes.h"
 #include "scene/read_volumes.h"

@@ -75,6 +75,8 @@ struct PhaseDescription {
     double g = 0.0;
     double g2 = 0.0, lobeWeight = 1.0;  ///< dual: lobeWeight * HG(g) + (1 - lobeWeight) * HG(g2)
     std::vector<double> table;          ///< tabulated: values at equidistant mu from -1 to 1, mu = dot(-wo, wi)
+
+    static constexpr std::size_t kMostTableValues = 65536;
 };
 
 /// A volume placed in the world: the unit cube under toWorld (Mitsuba's gridvolume).

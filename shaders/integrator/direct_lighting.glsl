@@ -11,23 +11,21 @@
 struct Scatterer {
     vec3 axis;   // shading normal, or direction of travel (any axis where scattering is isotropic)
     vec3 wo;
-    float g;     // 0: isotropic
+    PhaseFunction phase;
     bool surface;
 };
 
 // Scattering value towards wi, per steradian; also the density of sampleScatterer. Surfaces leave
 // the reflectance out.
 float evalScatterer(Scatterer s, vec3 wi) {
-    float value = kInvFourPi;
-    if (hasHenyeyGreenstein) value = s.g == 0.0 ? kInvFourPi : evalHenyeyGreenstein(s.g, s.wo, wi);
+    float value = evalPhase(s.phase, s.wo, wi);
     if (hasSurfaces && s.surface) value = evalDiffuse(s.axis, wi);
     return value;
 }
 
 // Direction (xyz) and its density (w).
 vec4 sampleScatterer(Scatterer s, vec2 u) {
-    vec3 polar = vec3(1.0 - 2.0 * u.x, 2.0 * sqrt(u.x * (1.0 - u.x)), kInvFourPi);  // cos, sin, pdf
-    if (hasHenyeyGreenstein && s.g != 0.0) polar = sampleHenyeyGreenstein(s.g, u.x);
+    vec3 polar = samplePhase(s.phase, u.x);
     vec2 sc = sinCosTurn(u.y);
     vec3 local = vec3(polar.y * vec2(sc.y, sc.x), polar.x);
     if (hasSurfaces && s.surface) {

@@ -72,7 +72,7 @@ Vertex surfaceVertex(inout Path p, Surface surface, Shape shape) {
     p.vertexOffset = surface.offset;
     p.vertexLast = p.hit.primitive;
     p.vertexInside = p.ray.inside;
-    return Vertex(dot(normal, wo) > 0.0, Scatterer(normal, wo, 0.0, true), shape.reflectance);
+    return Vertex(dot(normal, wo) > 0.0, Scatterer(normal, wo, noPhase(), true), shape.reflectance);
 }
 
 // A real collision at the segment's t.
@@ -82,14 +82,12 @@ Vertex mediumVertex(inout Path p) {
     p.vertexOffset = vec3(0.0);
     p.vertexLast = kNone;
     p.vertexInside = p.ray.inside;
-    vec3 corner = vec3(0.0);
-    if (hasAlbedoGrids) {
-        uvec4 word = draw(p.stream.key, p.vertex + 1u, kDrawAlbedo);
-        corner = vec3(toUniform(word.x), toUniform(word.y), toUniform(word.z));
-    }
-    float g = hasHenyeyGreenstein && medium.phase == kPhaseHenyeyGreenstein ? medium.g : 0.0;
-    vec3 axis = g == 0.0 ? vec3(0.0, 0.0, 1.0) : p.ray.direction;
-    return Vertex(true, Scatterer(axis, -p.ray.direction, g, false),
+    uvec4 word = uvec4(0u);
+    if (hasAlbedoGrids || hasDualHenyeyGreenstein || hasTabulatedPhase) word = draw(p.stream.key, p.vertex + 1u, kDrawAlbedo);
+    vec3 corner = vec3(toUniform(word.x), toUniform(word.y), toUniform(word.z));
+    PhaseFunction phase = choosePhase(medium, word.w);
+    vec3 axis = phase.kind == kPhaseIsotropic ? vec3(0.0, 0.0, 1.0) : p.ray.direction;
+    return Vertex(true, Scatterer(axis, -p.ray.direction, phase, false),
                   albedoAt(medium, p.vertexPosition, corner));
 }
 

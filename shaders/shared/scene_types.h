@@ -130,7 +130,7 @@ struct Medium {
     uint phase;               // kPhase*
     uint flags;               // kMedium*
     float g2;                 // dual: mean cosine of the second lobe
-    float lobeWeight;         // dual: probability of the first lobe
+    float lobeWeight;         // dual: probability of the first lobe, a multiple of 2^-24 in (0, 1)
     uint phaseOffset;         // tabulated: first entry in `phaseTable`
     uint phaseCount;          // tabulated: intervals of mu
     uint reserved0;

@@ -6,9 +6,14 @@
 
 #include "reference/sampling/sampler.h"
 #include "reference/volume/phase_function.h"
+#include "support/phase_cases.h"
 
 namespace parhelion::reference {
 namespace {
+
+using test::henyeyGreenstein;
+using test::newPhaseCases;
+using test::PhaseCase;
 
 constexpr std::array kAsymmetries{-0.999999, -0.99, -0.85, -0.5, -1e-4, 0.0,   1e-4,    1e-3,
                                   0.3,       0.6,   0.85,  0.9,  0.99,  0.999, 0.999999};
@@ -32,7 +37,7 @@ Exact textbookMu(const Exact& g, const Exact& u) {
 Medium<double> mediumOf(double g) {
     Medium<double> m{};
     m.g = g;
-    m.isotropic = false;
+    m.phase = shared::kPhaseHenyeyGreenstein;
     return m;
 }
 
@@ -86,7 +91,7 @@ TEST(ReferencePhase, SampledDirectionsHaveTheDensityThatEvaluationGives) {  // H
         for (int i = 0; i < 1000; ++i) {
             words = pcg4d(words);
             const glm::dvec2 u{toUniform<double>(words.x), toUniform<double>(words.y)};
-            const DirectionSample<double> sample = samplePhase(medium, wo, u);
+            const DirectionSample<double> sample = samplePhase(medium, wo, u, 0);
             EXPECT_NEAR(sample.pdf / evalPhase(medium, wo, sample.direction), 1, 1e-9);
             EXPECT_NEAR(glm::length(sample.direction), 1, 1e-15);
         }
@@ -100,7 +105,7 @@ TEST(ReferencePhase, MeanCosineOfTravelIsG) {  // H3, H6, H9: E[P_l(mu)] = g^l, 
         double first = 0, second = 0;
         for (int i = 0; i < kCount; ++i) {
             const glm::dvec3 wo{0, 1, 0};
-            const double mu = glm::dot(-wo, samplePhase(medium, wo, {(i + 0.5) / kCount, 0.25}).direction);
+            const double mu = glm::dot(-wo, samplePhase(medium, wo, {(i + 0.5) / kCount, 0.25}, 0).direction);
             first += mu;
             second += 1.5 * mu * mu - 0.5;
         }
@@ -125,15 +130,85 @@ TEST(ReferencePhase, DensityIntegratesToOne) {  // H6: composite Simpson over mu
 }
 
 TEST(ReferencePhase, TenThousandScatteringsKeepDirectionsUnit) {  // H11
-    Medium<float> medium{};
-    medium.g = 0.85f;
-    glm::vec3 direction{0, 0, 1};
-    glm::uvec4 words{3, 3, 3, 3};
-    for (int i = 0; i < 10000; ++i) {
-        words = pcg4d(words);
-        direction =
-            samplePhase(medium, -direction, glm::vec2(toUniform<float>(words.x), toUniform<float>(words.y))).direction;
-        ASSERT_NEAR(glm::length(glm::dvec3(direction)), 1, 2e-7);
+    std::vector<PhaseCase> all = newPhaseCases();
+    all.emplace_back("one lobe", henyeyGreenstein(0.85));
+    for (const PhaseCase& phase : all) {
+        const Medium<float> medium = phase.medium<float>();
+        glm::vec3 direction{0, 0, 1};
+        glm::uvec4 words{3, 3, 3, 3};
+        for (int i = 0; i < 10000; ++i) {
+            words = pcg4d(words);
+            const glm::vec2 u(toUniform<float>(words.x), toUniform<float>(words.y));
+            direction = samplePhase(medium, -direction, u, words.z).direction;
+            ASSERT_NEAR(glm::length(glm::dvec3(direction)), 1, 2e-7) << phase.name();
+        }
+    }
+}
+
+/// Cosines at both poles, next to them and between, as unit vectors can give them.
+std::vector<glm::dvec3> directionsAtManyCosines() {
+    std::vector<glm::dvec3> directions;
+    for (const double angle : {0.0, 1e-6, 1e-3, 0.1, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.14, 3.1415926})
+        directions.push_back(glm::normalize(glm::dvec3(std::sin(angle), 0, std::cos(angle))));
+    return directions;
+}
+
+// H5, H9: against the textbook forms, in double; mu between directions of travel. A table is stored in float.
+TEST(ReferencePhase, EveryFunctionIsThatOfItsFormulaH5H9) {
+    for (const PhaseCase& phase : newPhaseCases()) {
+        const Medium<double> medium = phase.medium<double>();
+        const double tolerance = phase.record().phase == shared::kPhaseTabulated ? 1e-6 : 1e-9;
+        for (const glm::dvec3& wi : directionsAtManyCosines()) {
+            const double exact = phase.density(wi.z);
+            EXPECT_NEAR(evalPhase(medium, glm::dvec3(0, 0, -1), wi), exact, tolerance * (exact + 1e-3))
+                << phase.name() << " mu " << wi.z;
+        }
+    }
+}
+
+TEST(ReferencePhase, EveryFunctionsMomentsAreThoseOfItsFormulaH6) {
+    constexpr int kSteps = 100000;
+    for (const PhaseCase& phase : newPhaseCases()) {
+        const Medium<double> medium = phase.medium<double>();
+        std::array<double, 9> moments{};
+        // Midpoints in the angle: errors of about (step / width)^2 / 24 of a peak's share; widths are 0.01 and, of the
+        // peak of weight 2^-10, 0.001: 4e-7 and 4e-8.
+        for (int i = 0; i < kSteps; ++i) {
+            const double angle = kPi<double> * (i + 0.5) / kSteps;
+            const glm::dvec3 wi{std::sin(angle), 0, std::cos(angle)};
+            const double part =
+                evalPhase(medium, glm::dvec3(0, 0, -1), wi) * wi.x * 2 * kPi<double> * kPi<double> / kSteps;
+            for (unsigned l = 0; l < moments.size(); ++l) moments[l] += part * std::legendre(l, wi.z);
+        }
+        for (unsigned l = 0; l < moments.size(); ++l)
+            EXPECT_NEAR(moments[l], phase.legendreMoment(l), 1e-6) << phase.name() << " l " << l;
+    }
+}
+
+TEST(ReferencePhase, EndsOfTheUnitIntervalGiveUnitDirectionsForEveryFunctionH4) {
+    for (const PhaseCase& phase : newPhaseCases()) {
+        const Medium<float> medium = phase.medium<float>();
+        for (const float u : {0.0f, 0x1p-24f, 0.5f, 1 - 0x1p-24f})
+            for (const std::uint32_t word : {0u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
+                const auto sample = samplePhase(medium, glm::vec3(0, 0, -1), {u, 0}, word);
+                EXPECT_NEAR(glm::length(glm::dvec3(sample.direction)), 1, 2e-7) << phase.name();
+                EXPECT_TRUE(std::isfinite(sample.pdf) && sample.pdf >= 0) << phase.name();
+            }
+    }
+}
+
+// H8: the density is the mixture's, not that of the lobe chosen: it is the density of the direction that came out.
+TEST(ReferencePhase, EverySampledDirectionHasTheDensityThatEvaluationGivesH8) {
+    for (const PhaseCase& phase : newPhaseCases()) {
+        const Medium<double> medium = phase.medium<double>();
+        const glm::dvec3 wo = glm::normalize(glm::dvec3(0.3, -0.5, 0.7));
+        glm::uvec4 words{9, 8, 7, 6};
+        for (int i = 0; i < 1000; ++i) {
+            words = pcg4d(words);
+            const glm::dvec2 u{toUniform<double>(words.x), toUniform<double>(words.y)};
+            const DirectionSample<double> sample = samplePhase(medium, wo, u, words.z);
+            EXPECT_NEAR(sample.pdf, evalPhase(medium, wo, sample.direction), 1e-9 * (sample.pdf + 1)) << phase.name();
+        }
     }
 }
 

@@ -8,7 +8,10 @@
 void probeItem() {
     loadScene();
     vec4 a = probeInput(0u), b = probeInput(1u), c = probeInput(2u);
-    Scatterer s = Scatterer(a.xyz, b.xyz, a.w, b.w != 0.0);
+    PhaseFunction phase = noPhase();
+    phase.kind = a.w == 0.0 ? kPhaseIsotropic : kPhaseHenyeyGreenstein;
+    phase.g = a.w;
+    Scatterer s = Scatterer(a.xyz, b.xyz, phase, b.w != 0.0);
     switch (probeFunction) {
         case 0u:  // axis, g; wo, surface; wi; u
             probeOutput(0u, vec4(evalScatterer(s, c.xyz)));

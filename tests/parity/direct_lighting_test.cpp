@@ -32,7 +32,7 @@ struct Scatterer {
 reference::Medium<double> mediumOf(const Scatterer& scatterer) {
     reference::Medium<double> medium{};
     medium.g = scatterer.g;
-    medium.isotropic = scatterer.g == 0;
+    medium.phase = scatterer.g == 0 ? shared::kPhaseIsotropic : shared::kPhaseHenyeyGreenstein;
     return medium;
 }
 

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/gpu_fixture.h"
 #include "support/parity_report.h"
+#include "support/phase_cases.h"
+#include "support/scene_probe.h"
 #include "support/stress.h"
 
 namespace parhelion {
@@ -12,6 +13,7 @@ namespace {
 
 using test::ErrorMeter;
 using test::Parity;
+using test::PhaseCase;
 using test::Stress;
 
 /// Asymmetries of H1 to H3, both signs.
@@ -22,6 +24,9 @@ std::vector<float> asymmetries() {
         values.insert(values.end(), {g, -g});
     return values;
 }
+
+const char* const kShader = "parity/phase_function.comp";
+enum Function : std::uint32_t { kHenyeyGreenstein, kRayleigh, kTable, kAny };
 
 struct Deflection {
     float g, u;
@@ -43,16 +48,24 @@ std::vector<Deflection> deflections() {
     return all;
 }
 
+/// Rows of the shader's inputs.
+void addTo(std::vector<glm::vec4>& inputs, float u, float gOrMedium, const glm::vec3& wo, const glm::vec3& wi,
+           std::uint32_t interval = 0, std::uint32_t word = 0) {
+    inputs.emplace_back(u, gOrMedium, float(interval), float(word >> 16));
+    inputs.emplace_back(wo, float(word & 0xffff));
+    inputs.emplace_back(wi, 0);
+}
+
+std::vector<glm::vec4> run(Function function, const std::vector<glm::vec4>& inputs, const CompiledScene& scene = {}) {
+    return test::SceneProbe(scene).run(kShader, function, inputs, 3, 2);
+}
+
 class PhaseFunctionParity : public testing::Test {
 protected:
     PhaseFunctionParity() {
         std::vector<glm::vec4> inputs;
-        for (const Deflection& d : cases_) {
-            inputs.emplace_back(d.g, d.u, 0, 0);
-            inputs.emplace_back(d.wo, 0);
-            inputs.emplace_back(d.wi, 0);
-        }
-        outputs_ = test::probe("parity/phase_function.comp", 0, inputs, 3, 2);
+        for (const Deflection& d : cases_) addTo(inputs, d.u, d.g, d.wo, d.wi);
+        outputs_ = run(kHenyeyGreenstein, inputs);
     }
 
     std::vector<Deflection> cases_ = deflections();
@@ -114,9 +127,9 @@ TEST_F(PhaseFunctionParity, DensityKeepsItsDigitsAtThePeakH5H9) {
         naive.add(naiveDensity(d.g, glm::dot(-d.wo, d.wi)), expected);
     }
     EXPECT_GT(naive.worst(), kAllowed);
-    const std::vector<glm::vec4> forward{{0.9f, 0, 0, 0}, {0, 0, -1, 0}, {0, 0, 1, 0},    // goes on
-                                         {0.9f, 0, 0, 0}, {0, 0, -1, 0}, {0, 0, -1, 0}};  // turns back
-    const auto values = test::probe("parity/phase_function.comp", 0, forward, 3, 2);
+    std::vector<glm::vec4> forward;
+    for (const float goesOn : {1.0f, -1.0f}) addTo(forward, 0, 0.9f, {0, 0, -1}, {0, 0, goesOn});
+    const auto values = run(kHenyeyGreenstein, forward);
     EXPECT_GT(values[1].x, 1000 * values[3].x);  // (1.9 / 0.1)^3
 }
 
@@ -128,15 +141,155 @@ TEST_F(PhaseFunctionParity, DensityOfSampleIsTheDensityOfItsDirectionH6) {
     std::vector<glm::vec4> inputs;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
         const glm::vec4 sample = outputs_[2 * i];
-        inputs.emplace_back(cases_[i].g, cases_[i].u, 0, 0);
-        inputs.emplace_back(0, 0, -1, 0);
-        inputs.emplace_back(sample.y, 0, sample.x, 0);
+        addTo(inputs, cases_[i].u, cases_[i].g, {0, 0, -1}, {sample.y, 0, sample.x});
     }
-    const auto outputs = test::probe("parity/phase_function.comp", 0, inputs, 3, 2);
+    const auto outputs = run(kHenyeyGreenstein, inputs);
     for (std::size_t i = 0; i < cases_.size(); ++i) {
         const double a = std::abs(double(cases_[i].g)), magnified = 1 + 3 * a / (1 - a);
         EXPECT_TRUE(parity.near(outputs[2 * i + 1].x, outputs[2 * i].z, magnified * outputs[2 * i].z))
             << "g = " << cases_[i].g << ", u = " << cases_[i].u;
+    }
+}
+
+/// A pair of directions at and next to mu = +-1, or anywhere.
+std::pair<glm::vec3, glm::vec3> directionPair(Stress& stress) {
+    const glm::vec3 wo = stress.direction(), wi = stress.direction();
+    const std::uint32_t kind = stress.word() % 4;
+    if (kind < 2) return {wo, wi};
+    return {wo, glm::normalize((kind == 2 ? wo : -wo) + stress.magnitude(1e-7f, 0.1f) * wi)};
+}
+
+// H4 and H5 for Rayleigh's function; Cardano's formula as the textbooks have it loses the poles.
+TEST(RayleighParity, SampleAndDensityAgreeH4H5) {
+    // 1 - |mu|: the root before the last step is off by a few roundings, of which a quarter stays; that step has six
+    // and a quotient (5). Half of it in sinTheta, and a root (6).
+    constexpr double kAllowed = 15;
+    Parity sample("volume/phase_function", "sampleRayleigh", kAllowed),
+        value("volume/phase_function", "evalRayleigh", 9);
+    ErrorMeter naive;
+    std::vector<glm::vec4> inputs;
+    Stress stress(19);
+    for (const float u : test::stressUniforms(4'000)) {
+        const auto [wo, wi] = directionPair(stress);
+        addTo(inputs, u, 0, wo, wi);
+    }
+    const auto outputs = run(kRayleigh, inputs);
+    for (std::size_t i = 0; i < outputs.size() / 2; ++i) {
+        const float u = inputs[3 * i].x;
+        const auto expected = reference::sampleRayleigh(double(u));
+        EXPECT_TRUE(sample.near(outputs[2 * i].x, expected.mu, 1)) << "u = " << u;
+        EXPECT_TRUE(sample.near(outputs[2 * i].y, expected.sinTheta)) << "u = " << u;
+        EXPECT_TRUE(sample.near(outputs[2 * i].z, expected.pdf)) << "u = " << u;
+        EXPECT_TRUE(value.near(outputs[2 * i + 1].x,
+                               reference::evalRayleigh(glm::dvec3(inputs[3 * i + 1]), glm::dvec3(inputs[3 * i + 2]))));
+        const float z = 4 * u - 2, y = std::cbrt(z + std::sqrt(z * z + 1)), mu = y - 1 / y;
+        naive.add(std::sqrt(std::max(0.0f, 1 - mu * mu)), expected.sinTheta);
+    }
+    EXPECT_GT(naive.worst(), 100 * kAllowed);
+}
+
+/// Tables of one interval, with empty ones, with single peaks, nearly constant, and long.
+std::vector<PhaseCase> tables() {
+    std::vector<PhaseCase> found;
+    for (PhaseCase& phase : test::newPhaseCases())
+        if (phase.record().phase == shared::kPhaseTabulated) found.push_back(std::move(phase));
+    found.emplace_back("long table", test::dropletTable(65536));
+    std::vector<double> steep;
+    for (int i = 0; i < 40; ++i) steep.push_back(std::pow(10.0, -i));
+    found.emplace_back("table over 40 decades", test::tabulated(steep));
+    return found;
+}
+
+TEST(TabulatedPhaseParity, SampleAgreesInEveryInterval) {
+    // Quotients a, b 5 each and 10 in squares; the root takes half of 13 and 6; sum and two products 10, two quotients
+    // 10, then width (5), sum and product, and a root of a product.
+    constexpr double kAllowed = 45;
+    Parity sample("volume/phase_function", "sampleTabulated", kAllowed),
+        choice("volume/phase_function", "chooseInterval", 0);
+    Stress stress(20);
+    for (const PhaseCase& phase : tables()) {
+        const shared::Medium& medium = phase.record();
+        const float* table = phase.scene().phaseTable.data();
+        std::vector<glm::vec4> inputs;
+        std::vector<std::uint32_t> words{0, 1, 0xffffffffu, 0x80000000u, 0x7fffffffu};
+        for (const float u : test::stressUniforms(500)) {
+            std::uint32_t interval = stress.word() % medium.phaseCount;
+            while (table[interval] + table[interval + 1] == 0) interval = (interval + 1) % medium.phaseCount;
+            words.push_back(stress.word());
+            addTo(inputs, u, 0, {0, 0, 1}, {0, 0, 1}, interval, words[inputs.size() / 3]);
+        }
+        const auto outputs = run(kTable, inputs, phase.scene());
+        for (std::size_t i = 0; i < outputs.size() / 2; ++i) {
+            const auto interval = std::uint32_t(inputs[3 * i].z);
+            const auto expected =
+                reference::sampleTabulated(table, medium.phaseCount, interval, double(inputs[3 * i].x));
+            EXPECT_TRUE(sample.near(outputs[2 * i].x, expected.mu, 1)) << phase.name() << ' ' << i;
+            EXPECT_TRUE(sample.near(outputs[2 * i].y, expected.sinTheta, std::max(expected.sinTheta, 1e-15)))
+                << phase.name() << ' ' << i;
+            EXPECT_TRUE(sample.near(outputs[2 * i].z, expected.pdf, std::max(expected.pdf, 1e-30)))
+                << phase.name() << ' ' << i;
+            EXPECT_TRUE(choice.equal(std::uint64_t(outputs[2 * i].w),
+                                     reference::chooseInterval(table, medium.phaseCount, words[i])));
+        }
+    }
+}
+
+TEST(TabulatedPhaseParity, DensityAgreesH5) {
+    // Distance from a pole, in intervals: a squared length and two products, 8, which move the value along the slopes
+    // next to it; interpolation 4.
+    Parity value("volume/phase_function", "evalTabulated", 8 + 4);
+    Stress stress(21);
+    for (const PhaseCase& phase : tables()) {
+        const float* table = phase.scene().phaseTable.data();
+        const std::uint32_t count = phase.record().phaseCount;
+        float steepest = 0;
+        for (std::uint32_t i = 0; i < count; ++i) steepest = std::max(steepest, std::abs(table[i + 1] - table[i]));
+        std::vector<glm::vec4> inputs;
+        for (int i = 0; i < 2'000; ++i) {
+            const auto [wo, wi] = directionPair(stress);
+            addTo(inputs, 0, 0, wo, wi);
+        }
+        const auto outputs = run(kTable, inputs, phase.scene());
+        for (std::size_t i = 0; i < outputs.size() / 2; ++i) {
+            const glm::dvec3 wo(inputs[3 * i + 1]), wi(inputs[3 * i + 2]);
+            const double expected = reference::evalTabulated(table, count, wo, wi);
+            const glm::dvec3 chord = glm::dot(wo, wi) < 0 ? wi + wo : wi - wo;
+            const double fromPole = glm::dot(chord, chord) * count / 4;
+            EXPECT_TRUE(value.near(outputs[2 * i + 1].x, expected, expected + steepest * fromPole + 1e-30))
+                << phase.name() << ' ' << i;
+        }
+    }
+}
+
+// H8: the density of a sample is that of all lobes, whichever was chosen; both choices are met. Samples are placed
+// about +z, or the direction of travel.
+TEST(PhaseParity, EveryKindSamplesAndEvaluatesAlikeH7H8) {
+    // Those of the kinds: 17 and 28 for one lobe, another density (28), two weights and a sum (5).
+    Parity sample("volume/phase_function", "samplePhase", 17 + 28 + 5), value("volume/phase_function", "evalPhase", 33);
+    std::vector<PhaseCase> all = test::newPhaseCases();
+    all.emplace_back("isotropic", PhaseDescription{});
+    all.emplace_back("one lobe", test::henyeyGreenstein(-0.6));
+    Stress stress(22);
+    for (const PhaseCase& phase : all) {
+        const auto medium = phase.medium<double>();
+        const bool isTable = medium.phase == shared::kPhaseTabulated;
+        std::vector<glm::vec4> inputs;
+        std::vector<std::uint32_t> words;
+        for (const float u : test::stressUniforms(400)) {
+            words.push_back(stress.word());
+            addTo(inputs, u, 0, stress.direction(), stress.direction(), 0, words.back());
+        }
+        const auto outputs = run(kAny, inputs, phase.scene());
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            const glm::dvec3 wo(inputs[3 * i + 1]), wi(inputs[3 * i + 2]);
+            const double expected = reference::evalPhase(medium, wo, wi);
+            EXPECT_TRUE(value.near(outputs[2 * i + 1].x, expected, isTable ? expected + 10 : expected)) << phase.name();
+            const auto drawn =
+                reference::samplePhase(medium, glm::dvec3(0, 0, -1), {double(inputs[3 * i].x), 0}, words[i]);
+            EXPECT_TRUE(sample.near(outputs[2 * i].x, drawn.direction.z, 1)) << phase.name() << ' ' << i;
+            EXPECT_TRUE(sample.near(outputs[2 * i].z, drawn.pdf, std::max(drawn.pdf, 1e-30)))
+                << phase.name() << ' ' << i;
+        }
     }
 }
 

@@ -120,12 +120,58 @@ std::vector<BadText> badMedia() {
         {"AnisotropyOfOne",
          mediumOf("<phase type=\"hg\"><float name=\"g\" value=\"@@1\"/></phase>"),
          {"(-1, 1)", "got 1"}},
-        {"UnknownPhase", mediumOf("<phase type=\"@@rayleigh\"/>"), {"isotropic, hg"}},
+        {"UnknownPhase", mediumOf("<phase type=\"@@sggx\"/>"), {"isotropic, hg, dual_hg"}},
         {"TwoPhases", mediumOf("<phase type=\"hg\"/>@@<phase type=\"hg\"/>"), {"only one <phase>"}},
         {"MixedCoefficients",
          mediumOf("<float name=\"sigma_s\" value=\"1\"/><float name=\"albedo\" value=\"@@0.5\"/>"),
          {"mixes"}},
         {"VolumeWithUnknownName", mediumOf("@@<volume name=\"sigma_x\" type=\"gridvolume\"/>"), {"sigma_x", "sigma_t"}},
+    };
+}
+
+/// A medium with a phase function of the given type and content.
+std::string phaseOf(const std::string& type, const std::string& content) {
+    return mediumOf("<phase type=\"" + type + "\">" + content + "</phase>");
+}
+
+std::string tableOf(const std::string& values) {
+    return phaseOf("tabphase", "<string name=\"values\" value=\"@@" + values + "\"/>");
+}
+
+std::vector<BadText> badPhases() {
+    const std::string lobes = "<float name=\"g1\" value=\"0.8\"/><float name=\"g2\" value=\"-0.2\"/>";
+    const std::string weight = "<float name=\"weight\" value=\"0.5\"/>", lobe = "<phase type=\"hg\"/>";
+    return {
+        {"LobeWithoutWeight",
+         mediumOf("@@<phase type=\"dual_hg\">" + lobes + "</phase>"),
+         {"needs <float name=\"weight\">"}},
+        {"WeightAboveOne",
+         phaseOf("dual_hg", lobes + "<float name=\"weight\" value=\"@@1.5\"/>"),
+         {"[0, 1]", "got 1.5"}},
+        {"SecondLobeBeyondOne",
+         phaseOf("dual_hg", weight + "<float name=\"g1\" value=\"0\"/><float name=\"g2\" value=\"@@-1\"/>"),
+         {"(-1, 1)", "got -1"}},
+        {"BlendOfOne",
+         mediumOf("@@<phase type=\"blendphase\">" + weight + lobe + "</phase>"),
+         {"two <phase>", "got 1"}},
+        {"BlendWithoutWeight", mediumOf("@@<phase type=\"blendphase\">" + lobe + lobe + "</phase>"), {"weight"}},
+        {"BlendWithWeightOutside",
+         phaseOf("blendphase", lobe + lobe + "<float name=\"weight\" value=\"@@-0.5\"/>"),
+         {"[0, 1]", "got -0.5"}},
+        {"BlendOfOthers",
+         phaseOf("blendphase", weight + lobe + "@@<phase type=\"rayleigh\"/>"),
+         {"isotropic or hg can be blended"}},
+        {"BlendOfItself",
+         mediumOf("<phase type=\"blendphase\" id=\"p\">" + weight + lobe + "@@<ref id=\"p\"/></phase>"),
+         {""}},
+        {"TableWithoutValues", mediumOf("@@<phase type=\"tabphase\"/>"), {"needs <string name=\"values\">"}},
+        {"TableOfOne", tableOf("1"), {"2 to 65536", "got 1"}},
+        {"NegativeTable", tableOf("1, -2, 3"), {">= 0", "got -2 as number 2"}},
+        {"NanInTable", tableOf("1, nan"), {"finite"}},
+        {"EmptyTable", tableOf("0 0 0"), {"zero everywhere"}},
+        {"RayleighHasNoParameter",
+         phaseOf("rayleigh", "@@<float name=\"g\" value=\"0\"/>"),
+         {"unknown property \"g\""}},
     };
 }
 
@@ -205,6 +251,7 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, ScenePropertyError, testing::ValuesIn(badSurf
 INSTANTIATE_TEST_SUITE_P(Lights, ScenePropertyError, testing::ValuesIn(badLights()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Skies, ScenePropertyError, testing::ValuesIn(badSkies()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Media, ScenePropertyError, testing::ValuesIn(badMedia()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(Phases, ScenePropertyError, testing::ValuesIn(badPhases()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Grids, ScenePropertyError, testing::ValuesIn(badGrids()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Cameras, ScenePropertyError, testing::ValuesIn(badCameras()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(FilmsAndIntegrators, ScenePropertyError, testing::ValuesIn(badFilmsAndIntegrators()),

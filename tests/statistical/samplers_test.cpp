@@ -26,7 +26,7 @@ double significance() { return sidak(test::kFamilySignificance, kTests); }
 Medium<float> mediumOf(double g, bool isotropic = false) {
     Medium<float> medium{};
     medium.g = float(g);
-    medium.isotropic = isotropic;
+    medium.phase = isotropic ? shared::kPhaseIsotropic : shared::kPhaseHenyeyGreenstein;
     return medium;
 }
 
@@ -57,7 +57,7 @@ CellTest scatterInto(double g, const PhaseSampler& sampler, double share = 1) {
 }
 
 PhaseSampler phaseSampler(const Medium<float>& medium) {
-    return [medium](const glm::vec3& wo, const glm::vec2& u) { return samplePhase(medium, wo, u).direction; };
+    return [medium](const glm::vec3& wo, const glm::vec2& u) { return samplePhase(medium, wo, u, 0).direction; };
 }
 
 TEST(PhaseSampling, FollowsTheClosedFormDistribution) {
@@ -76,7 +76,7 @@ TEST(PhaseSampling, SeededDefectsAreCaught) {
     scatterInto(
         0.5,
         [&](const glm::vec3& wo, const glm::vec2& u) {
-            return samplePhase(medium, wo, {u.x, 0.99f * u.y}).direction;
+            return samplePhase(medium, wo, {u.x, 0.99f * u.y}, 0).direction;
         },
         0.25)
         .expectMisfit("a slice of azimuths left out");

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "compile/compile_scene.h"
 #include "compile/density_storage.h"
 #include "support/hand_scene.h"
@@ -57,6 +60,17 @@ std::string homogeneous(const std::string& id, const std::string& sigma, double 
                        id, sigma, g);
 }
 
+std::string fogScattering(const std::string& id, const std::string& phase) {
+    return fmt::format(R"(<medium type="homogeneous" id="{}"><float name="sigma_t" value="2"/>
+    <float name="albedo" value="0.95"/>{}</medium>)",
+                       id, phase);
+}
+
+const std::string kTwoLobes = R"(<phase type="dual_hg"><float name="g1" value="0.85"/><float name="g2" value="-0.3"/>
+    <float name="weight" value="0.7"/></phase>)";
+const std::string kSmallParticles = R"(<phase type="rayleigh"/>)";
+const std::string kPhaseTable = R"(<phase type="tabphase"><string name="values" value="2 0.5 0 0 1 1 4 20"/></phase>)";
+
 /// The cumulus over [-1, 1]^3. The extinction of a grid is grey in the scene language; see makeChromatic.
 std::string cloud(const std::string& id, const std::string& albedo, const std::string& phase) {
     return fmt::format(
@@ -97,6 +111,20 @@ const std::string kTwoSided = R"(<bsdf type="twosided"><bsdf type="diffuse">
 const std::string kTwoSidedMesh =
     R"(<emitter type="area"><rgb name="radiance" value="7, 6, 5"/><boolean name="two_sided" value="true"/></emitter>)";
 const std::string kMeshLight = R"(<emitter type="area"><rgb name="radiance" value="7, 6, 5"/></emitter>)";
+
+/// Media whose phase functions are not of one lobe.
+std::vector<NamedScene> phaseScenes(glm::uvec2 size) {
+    const auto ballOf = [](const std::string& id, const std::string& phase, const std::string& place) {
+        return fogScattering(id, phase) + around(id, "sphere", "<scale value=\"0.5\"/><translate " + place + "/>");
+    };
+    const auto compiled = [size](const std::string& body) { return compileText(sceneXml(body), size); };
+    return {{"two lobes, sun, sky", compiled(kSky + kSun + fogScattering("fog", kTwoLobes) + around("fog", "cube"))},
+            {"tabulated phase function, quad light",
+             compiled(kFloor + kQuadLight + fogScattering("fog", kPhaseTable) + around("fog", "cube"))},
+            {"media of every phase function, point light",
+             compiled(kLamp + kSky + ballOf("a", kSmallParticles, "x=\"-0.6\"") + ballOf("b", kTwoLobes, "x=\"0.6\"") +
+                      ballOf("c", kPhaseTable, "y=\"0.8\"") + ballOf("d", "<phase type=\"hg\"/>", "y=\"-0.8\""))}};
+}
 
 CompiledScene makeChromatic(CompiledScene scene) {
     scene.constants.media[0].sigmaRatio = {1.0f, 0.7f, 0.45f};
@@ -140,7 +168,7 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
     const auto compiled = [size](const std::string& body, const SceneFrame& frame = {}) {
         return compileText(sceneXml(body, frame), size);
     };
-    return {
+    std::vector<NamedScene> scenes{
         {"quad light, fog", compiled(kFloor + kQuadLight + greyBox)},
         {"chromatic fog in a sphere, sky",
          compiled(kSky + homogeneous("fog", "3, 1.5, 0.7", 0.3) + around("fog", "sphere"))},
@@ -166,6 +194,8 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
         {"two-sided lights, fog",
          compiled(kFloor + kTwoSidedQuad + kSphereLight + greyBox + ball(folder, true, smallBall, kTwoSidedMesh))},
     };
+    std::ranges::move(phaseScenes(size), std::back_inserter(scenes));
+    return scenes;
 }
 
 }  // namespace parhelion::test

@@ -34,6 +34,8 @@ public:
         const Real u = uniform<Real>();
         return {u, uniform<Real>()};
     }
+    /// All 32 bits.
+    std::uint32_t word() { return std::uint32_t(engine_() >> 32); }
 
 private:
     std::mt19937_64 engine_;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 
 #include "analysis/statistics.h"
 #include "scene/scene_description.h"
@@ -22,6 +24,13 @@ std::vector<std::string> cellsOf(const std::string& line) {
     std::stringstream stream(line);
     for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
     return cells;
+}
+
+std::string phaseText(const SlabRow& slab) {
+    if (slab.weight == 1) return fmt::format(R"(<phase type="hg"><float name="g" value="{}"/></phase>)", slab.g);
+    return fmt::format(R"(<phase type="dual_hg"><float name="g1" value="{}"/><float name="g2" value="{}"/>
+        <float name="weight" value="{}"/></phase>)",
+                       slab.g, slab.g2, slab.weight);
 }
 
 std::string mediumText(const SlabRow& slab, const SlabView& view, const TemporaryFolder& folder) {
@@ -39,8 +48,8 @@ std::string mediumText(const SlabRow& slab, const SlabView& view, const Temporar
                                  sigma, 2e4 * view.thickness, view.thickness, 2e4 * view.thickness);
     }
     return fmt::format(R"(<medium type="{}" id="slab">{}<float name="albedo" value="{}"/>
-        <phase type="hg"><float name="g" value="{}"/></phase></medium>)",
-                       view.constantGrid ? "heterogeneous" : "homogeneous", extinction, slab.albedo, slab.g);
+        {}</medium>)",
+                       view.constantGrid ? "heterogeneous" : "homogeneous", extinction, slab.albedo, phaseText(slab));
 }
 
 std::string sensorText(const SlabView& view) {
@@ -65,7 +74,10 @@ std::string shapesText(const SlabView& view) {
 
 }  // namespace
 
-std::string SlabRow::name() const { return fmt::format("tau {} albedo {} g {}", tau, albedo, g); }
+std::string SlabRow::name() const {
+    const std::string second = weight == 1 ? "" : fmt::format(" ({}) and {}", weight, g2);
+    return fmt::format("tau {} albedo {} g {}{}", tau, albedo, g, second);
+}
 
 std::vector<SlabRow> readSlabRows(const std::filesystem::path& table) {
     std::ifstream file(table);
@@ -77,11 +89,19 @@ std::vector<SlabRow> readSlabRows(const std::filesystem::path& table) {
         std::map<std::string, std::string> cell;
         const std::vector<std::string> cells = cellsOf(line);
         for (std::size_t i = 0; i < std::min(names.size(), cells.size()); ++i) cell[names[i]] = cells[i];
-        if (cell.at("phase") != "HG") continue;
         const auto number = [&cell](const char* column) { return std::stod(cell.at(column)); };
+        SlabRow lobes;
+        if (cell.at("phase") == "HG") {
+            lobes.g = number("g");
+        } else if (std::sscanf(cell.at("g").c_str(), "%lf*HG(%lf)+%*f*HG(%lf)", &lobes.weight, &lobes.g, &lobes.g2) !=
+                   3) {
+            throw std::runtime_error("unknown phase function: " + cell.at("g"));
+        }
         rows.push_back({.tau = number("tau"),
                         .albedo = number("albedo"),
-                        .g = number("g"),
+                        .g = lobes.g,
+                        .g2 = lobes.g2,
+                        .weight = lobes.weight,
                         .reflected1 = number("R_mu1"),
                         .transmitted1 = number("Ttot_mu1"),
                         .reflected05 = number("R_mu05"),

@@ -8,17 +8,18 @@
 
 namespace parhelion::test {
 
-/// A row of slabs.csv: a plane-parallel slab with a Henyey-Greenstein phase function, and what it does to collimated
-/// light of unit flux, incident at mu = 1 or 0.5.
+/// A row of slabs.csv: a plane-parallel slab with a (dual) Henyey-Greenstein phase function, and what it does to
+/// collimated light of unit flux, incident at mu = 1 or 0.5.
 struct SlabRow {
     double tau = 0, albedo = 0, g = 0;
+    double g2 = 0, weight = 1;                ///< weight HG(g) + (1 - weight) HG(g2)
     double reflected1 = 0, transmitted1 = 0;  ///< total, the unscattered light included
     double reflected05 = 0, transmitted05 = 0;
 
     std::string name() const;
 };
 
-/// The rows with a Henyey-Greenstein phase function.
+/// Every row, in the table's order.
 std::vector<SlabRow> readSlabRows(const std::filesystem::path& table);
 
 /// How a slab is looked at.

@@ -72,6 +72,12 @@ std::vector<Case> mediumCases() {
     chromatic.sigmaT = {1, 2, 3};
     forward.phase.type = PhaseDescription::Type::HenyeyGreenstein;
     forward.phase.g = 0.5;
+    MediumDescription twoLobes = forward, air = medium("m"), droplets = medium("m");
+    twoLobes.phase.type = PhaseDescription::Type::DualHenyeyGreenstein;
+    twoLobes.phase.lobeWeight = 0.5;
+    air.phase.type = PhaseDescription::Type::Rayleigh;
+    droplets.phase.type = PhaseDescription::Type::Tabulated;
+    droplets.phase.table = {1, 2};
     patterned.albedoGrid = GridPlacement{};
     patterned.albedoGrid->volume.density = DensityGrid::fromDense({2, 1, 1}, std::vector<float>{0.5f, 1.0f});
     weightless.sigmaT = glm::dvec3(0.0);
@@ -83,6 +89,9 @@ std::vector<Case> mediumCases() {
         {"cloud", with({box}, {grid}), {hasBoxes, hasMedia, hasHeterogeneousMedia}},
         {"chromatic fog", with({box}, {chromatic}), {hasBoxes, hasMedia, hasHomogeneousMedia, hasChromaticExtinction}},
         {"forward fog", with({box}, {forward}), {hasBoxes, hasMedia, hasHomogeneousMedia, hasHenyeyGreenstein}},
+        {"two lobes", with({box}, {twoLobes}), {hasBoxes, hasMedia, hasHomogeneousMedia, hasDualHenyeyGreenstein}},
+        {"air", with({box}, {air}), {hasBoxes, hasMedia, hasHomogeneousMedia, hasRayleigh}},
+        {"droplets", with({box}, {droplets}), {hasBoxes, hasMedia, hasHomogeneousMedia, hasTabulatedPhase}},
         {"patterned fog", with({box}, {patterned}), {hasBoxes, hasMedia, hasHomogeneousMedia, hasAlbedoGrids}},
         {"weightless fog", with({box}, {weightless}), {}},
         {"fog and cloud",

@@ -55,13 +55,16 @@ struct Medium {
     Vec3<Real> sigmaRatio;
     Real sigmaMax;
     Vec3<Real> albedo;
-    Real g;
+    std::uint32_t phase;                ///< shared::kPhase*
+    Real g, g2, lobeWeight;             ///< see shared::Medium
+    std::uint32_t phaseCount;           ///< intervals of phaseTable
+    const float* phaseTable = nullptr;  ///< null unless tabulated
     glm::ivec3 resolution, cells, albedoResolution;
     const float* density = nullptr;             ///< first voxel (dense), or the whole brick pool
     const std::uint32_t* brickTable = nullptr;  ///< null when dense
     const float* majorants = nullptr;
     const glm::vec4* albedoVoxels = nullptr;  ///< null without an albedo grid
-    bool homogeneous, grey, isotropic;
+    bool homogeneous, grey;
 };
 
 template <typename Real>
@@ -123,13 +126,17 @@ Medium<Real> viewMedium(const CompiledScene& scene, const shared::Medium& m) {
     v.sigmaRatio = m.sigmaRatio;
     v.sigmaMax = m.sigmaMax;
     v.albedo = m.albedo;
+    v.phase = m.phase;
     v.g = m.g;
+    v.g2 = m.g2;
+    v.lobeWeight = m.lobeWeight;
+    v.phaseCount = m.phaseCount;
+    if (m.phase == shared::kPhaseTabulated) v.phaseTable = scene.phaseTable.data() + m.phaseOffset;
     v.resolution = m.resolution;
     v.cells = m.cells;
     v.albedoResolution = m.albedoResolution;
     v.homogeneous = (m.flags & shared::kMediumHomogeneous) != 0;
     v.grey = m.sigmaRatio == glm::vec3(1.0f);
-    v.isotropic = m.phase == shared::kPhaseIsotropic;
     if (!v.homogeneous) {
         const bool bricked = (m.flags & shared::kMediumBricked) != 0;
         v.density = scene.density.data() + (bricked ? 0 : m.voxelOffset);

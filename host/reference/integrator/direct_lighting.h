@@ -17,8 +17,9 @@ struct Vertex {
     Surface<Real> surface{};               ///< normals on the side of wo; of no meaning in a medium
     std::uint32_t primitive = kNone;
     std::uint32_t inside = kNone;
-    std::uint32_t index = 0;  ///< scatterings so far, this one included
-    Real strength = 1;        ///< largest channel of the reflectance; 1 in a medium
+    std::uint32_t index = 0;   ///< scatterings so far, this one included
+    std::uint32_t choice = 0;  ///< random word: lobe or interval of the medium's phase function
+    Real strength = 1;         ///< largest channel of the reflectance; 1 in a medium
 };
 
 /// Scattering value without albedo or reflectance, cosine included; it is also the density that scattering samples.
@@ -29,7 +30,8 @@ Real evalScatterer(const Vertex<Real>& vertex, const Vec3<Real>& wi) {
 
 template <typename Real>
 DirectionSample<Real> sampleScatterer(const Vertex<Real>& vertex, const Vec2<Real>& u) {
-    return vertex.medium ? samplePhase(*vertex.medium, vertex.wo, u) : sampleDiffuse(vertex.surface.shadingNormal, u);
+    return vertex.medium ? samplePhase(*vertex.medium, vertex.wo, u, vertex.choice)
+                         : sampleDiffuse(vertex.surface.shadingNormal, u);
 }
 
 /// Ray that leaves a vertex; off triangles by their rounding, to the side it goes to (numerics H41).

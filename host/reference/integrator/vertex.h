@@ -112,6 +112,7 @@ bool mediumVertex(const PathContext<Real, Trace>& path, const Medium<Real>& medi
     vertex.position = state.ray.origin + t * state.ray.direction;
     const glm::uvec4 words = draw(path.stream.key, vertex.index, shared::kDrawAlbedo);
     const Vec3<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y), toUniform<Real>(words.z)};
+    vertex.choice = words.w;
     return scatter(path, vertex, albedoAt(medium, vertex.position, u), state);
 }
 

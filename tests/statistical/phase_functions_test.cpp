@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "reference/volume/phase_function.h"
+#include "support/goodness.h"
+#include "support/phase_cases.h"
+
+// Dual, Rayleigh and tabulated phase functions against closed-form distribution functions and moments.
+// Henyey-Greenstein itself: samplers_test. Family: 10 functions, 10 x 4 moments, 200 bins, one rare lobe.
+namespace parhelion::reference {
+namespace {
+
+using test::CellTest;
+using test::dualHenyeyGreenstein;
+using test::IndependentNumbers;
+using test::partOf;
+using test::PhaseCase;
+using test::turnOf;
+
+constexpr std::size_t kTests = 52;
+constexpr std::size_t kPolar = 6, kAzimuth = 3;
+
+double significance() { return sidak(test::kFamilySignificance, kTests); }
+
+using Sampler = std::function<glm::vec3(const glm::vec3& wo, const glm::vec2& u, std::uint32_t choice)>;
+/// Cell of a deflection by 1 - mu and the share of the full turn.
+using Cell = std::function<std::size_t(double oneMinusMu, double turn)>;
+
+Sampler samplerOf(const PhaseCase& phase) {
+    return [medium = phase.medium<float>()](const glm::vec3& wo, const glm::vec2& u, std::uint32_t choice) {
+        return samplePhase(medium, wo, u, choice).direction;
+    };
+}
+
+/// Scatters a skew ray.
+/// @param share  of the samples that a distortion of half a percent needs; seeded defects are larger.
+CellTest scatterInto(CellTest cells, const Cell& cellOf, const Sampler& sampler, double share = 1) {
+    const glm::vec3 wo = glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f));
+    const glm::dvec3 travel = -glm::normalize(glm::dvec3(wo));
+    const glm::dvec3 side = glm::normalize(glm::cross(travel, glm::dvec3(1, 0, 0))), up = glm::cross(travel, side);
+    IndependentNumbers numbers(11);
+    for (auto i = std::uint64_t(share * double(cells.samplesNeeded())); i > 0; --i) {
+        const glm::vec2 u = numbers.pair<float>();
+        const glm::dvec3 wi(sampler(wo, u, numbers.word()));
+        const glm::dvec3 chord = wi - travel;
+        cells.add(cellOf(glm::dot(chord, chord) / 2, turnOf(glm::dot(wi, side), glm::dot(wi, up))));
+    }
+    return cells;
+}
+
+/// Cells of equal probability by distribution function and azimuth about the direction of travel.
+CellTest scatterEqually(const PhaseCase& phase, const Sampler& sampler, double share = 1) {
+    const auto cellOf = [&](double oneMinusMu, double turn) {
+        return partOf(phase.cdf(oneMinusMu), kPolar) * kAzimuth + partOf(turn, kAzimuth);
+    };
+    return scatterInto(CellTest(kPolar * kAzimuth, significance()), cellOf, sampler, share);
+}
+
+TEST(PhaseFunctions, FollowTheirDistributionFunctions) {
+    for (const PhaseCase& phase : test::newPhaseCases())
+        scatterEqually(phase, samplerOf(phase)).expectFit(phase.name());
+}
+
+TEST(PhaseFunctions, SeededDefectsAreCaught) {
+    const auto expectCaught = [](const PhaseCase& right, const PhaseCase& wrong, double share = 0.25) {
+        scatterEqually(right, samplerOf(wrong), share).expectMisfit(wrong.name());
+    };
+    const PhaseCase dual("dual", dualHenyeyGreenstein(0.85, -0.3, 0.7)), rayleigh("Rayleigh", test::rayleigh());
+    expectCaught(dual, {"weight off by 0.01", dualHenyeyGreenstein(0.85, -0.3, 0.71)});
+    expectCaught(dual, {"second g off by 0.02", dualHenyeyGreenstein(0.85, -0.32, 0.7)}, 1);
+    expectCaught(dual, {"lobes swapped", dualHenyeyGreenstein(-0.3, 0.85, 0.7)}, 0.01);
+    expectCaught(rayleigh, {"isotropic for Rayleigh", test::henyeyGreenstein(0)});
+    const PhaseCase table("table", test::dropletTable(181));
+    expectCaught(table,
+                 {"sign of the table's cosine",
+                  [] {
+                      PhaseDescription phase = test::dropletTable(181);
+                      std::ranges::reverse(phase.table);
+                      return phase;
+                  }()},
+                 0.01);
+    expectCaught({"table", test::tabulated({0, 1, 3})}, {"a value off by 2 %", test::tabulated({0, 1.02, 3})}, 1);
+    const Medium<float> medium = table.medium<float>();
+    scatterEqually(
+        table,
+        [&](const glm::vec3& wo, const glm::vec2& u, std::uint32_t) {
+            return samplePhase(medium, wo, u, std::uint32_t(u.x * 0x1p32f)).direction;
+        },
+        0.25)
+        .expectMisfit("the same number chooses the interval and the place in it");
+}
+
+/// 20 x 10 cells of equal extent in (cos theta, phi).
+CellTest scatterIntoBins(const PhaseCase& phase, const Sampler& sampler, double share = 1) {
+    constexpr std::size_t kCosines = 20, kAngles = 10;
+    std::vector<double> probabilities;
+    for (std::size_t i = 0; i < kCosines; ++i) {
+        const double part = phase.cdf(2 - 2 * double(i + 1) / kCosines) - phase.cdf(2 - 2 * double(i) / kCosines);
+        probabilities.insert(probabilities.end(), kAngles, part / kAngles);
+    }
+    const auto cellOf = [](double oneMinusMu, double turn) {
+        return partOf(1 - oneMinusMu / 2, kCosines) * kAngles + partOf(turn, kAngles);
+    };
+    return scatterInto(CellTest(probabilities, significance()), cellOf, sampler, share);
+}
+
+// The baseline's test of this name, there with 200 000 samples at 1 %.
+TEST(PhaseFunctions, DualHenyeyGreensteinChiSquareIn200BinsOfCosThetaAndPhi) {
+    const PhaseCase phase("dual", dualHenyeyGreenstein(0.85, -0.3, 0.7));
+    scatterIntoBins(phase, samplerOf(phase)).expectFit(phase.name());
+    const PhaseCase wrong("weight off by 0.01", dualHenyeyGreenstein(0.85, -0.3, 0.71));
+    scatterIntoBins(phase, samplerOf(wrong), 0.25).expectMisfit(wrong.name());
+}
+
+// H7: a lobe keeps its shape however rarely it is chosen. With the choosing number rescaled, which is what most do, a
+// lobe of weight 2^-20 has 16 directions left.
+TEST(PhaseFunctions, RareLobesKeepTheirShapeH7) {
+    const float weight = 0x1p-20f;
+    const PhaseCase rare("rare", dualHenyeyGreenstein(0.9, -0.5, weight)), lobe("lobe", test::henyeyGreenstein(0.9));
+    const Medium<float> medium = rare.medium<float>();
+    scatterEqually(lobe, [&](const glm::vec3& wo, const glm::vec2& u, std::uint32_t word) {
+        return samplePhase(medium, wo, u, word >> 20).direction;
+    }).expectFit("lobe of weight 2^-20");
+    const Medium<float> single = lobe.medium<float>();
+    scatterEqually(
+        lobe,
+        [&](const glm::vec3& wo, const glm::vec2& u, std::uint32_t) {
+            const float rescaled = std::floor(u.x * weight * 0x1p24f) * 0x1p-24f / weight;
+            return samplePhase(single, wo, {rescaled, u.y}, 0).direction;
+        },
+        0.25)
+        .expectMisfit("one number chooses the lobe and the direction");
+}
+
+std::array<RunningMoments, 4> legendreMoments(const PhaseCase& phase) {
+    std::array<RunningMoments, 4> moments;
+    const Medium<float> medium = phase.medium<float>();
+    IndependentNumbers numbers(12);
+    for (int i = 0; i < 1'000'000; ++i) {
+        const glm::vec2 u = numbers.pair<float>();
+        const glm::dvec3 wi(samplePhase(medium, glm::vec3(0, 0, -1), u, numbers.word()).direction);
+        for (unsigned l = 1; l <= 4; ++l) moments[l - 1].add(std::legendre(l, std::clamp(wi.z, -1.0, 1.0)));
+    }
+    return moments;
+}
+
+TEST(PhaseFunctions, LegendreMomentsAreThoseOfTheFormula) {
+    for (const PhaseCase& phase : test::newPhaseCases()) {
+        const auto moments = legendreMoments(phase);
+        for (unsigned l = 1; l <= 4; ++l)
+            test::expectMean(moments[l - 1], phase.legendreMoment(l), significance(),
+                             phase.name() + ", l " + std::to_string(l));
+    }
+    // A second moment or a first one that is 0.01 off shows.
+    const auto rayleigh = legendreMoments({"Rayleigh", test::rayleigh()});
+    EXPECT_FALSE(test::agrees(rayleigh[1], 0.11, significance())) << "seeded defect";
+    const auto dual = legendreMoments({"dual", dualHenyeyGreenstein(0.85, -0.3, 0.7)});
+    EXPECT_FALSE(test::agrees(dual[0], 0.7 * 0.85 + 0.3 * 0.3, significance())) << "seeded defect";
+    EXPECT_FALSE(test::agrees(legendreMoments({"table", test::dropletTable(181)})[0], 0.75, significance()));
+}
+
+}  // namespace
+}  // namespace parhelion::reference
