@@ -97,7 +97,10 @@ void writeDensity(const MediumDescription& medium, const glm::dvec3& worldOrigin
         return;
     }
     const DensityGrid& grid = medium.density->volume.density;
-    const MajorantGrid majorants = buildMajorants(grid);
+    const glm::dmat4 placement =
+        medium.density->toWorld * glm::scale(glm::dmat4(1.0), 1.0 / glm::dvec3(grid.resolution()));
+    const glm::dvec3 edge(glm::length(placement[0]), glm::length(placement[1]), glm::length(placement[2]));
+    const MajorantGrid majorants = chooseMajorants(grid, double(record.sigmaMax) * edge);
     if (!std::isfinite(record.sigmaMax * *std::ranges::max_element(majorants.bounds)))
         throw InputError(medium.density->where, nameOf(medium) +
                                                     ": sigma_t times the largest density must be within "
@@ -106,6 +109,7 @@ void writeDensity(const MediumDescription& medium, const glm::dvec3& worldOrigin
     record.gridFromWorld =
         voxelsFromScene(*medium.density, record.resolution, worldOrigin, nameOf(medium) + ": sigma_t");
     record.cells = majorants.cells;
+    record.cellLevel = majorants.level;
     record.cellOffset = std::uint32_t(scene.majorants.size());
     scene.majorants.insert(scene.majorants.end(), majorants.bounds.begin(), majorants.bounds.end());
     record.voxelOffset = appendDensity(grid, bricked, scene);
