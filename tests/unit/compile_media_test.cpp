@@ -189,6 +189,25 @@ TEST(CompiledMedia, GridsBeyondTheLimitsAreBlamedWhereTheyAreRead) {
     EXPECT_TRUE(contains(beyond, "need 134479872 voxels of albedo; allowed are 134217728")) << beyond;
 }
 
+TEST(CompiledMedia, PositionsCoarserThanTheMeanFreePathAreNoted) {
+    // The camera is 10 away: the cube's far face has coordinate 11, where neighbours may be 11 * 2^-23 apart.
+    const double spacing = 11 * 0x1p-23;
+    const auto notesOf = [](double sigma, double density, double z = 0) {
+        MediumDescription fog = gridMedium("fog", DensityGrid::fromDense({1, 1, 1}, std::vector{float(density)}));
+        fog.sigmaT = glm::dvec3(sigma);
+        SceneDescription description = sceneWith({fog});
+        description.shapes[0].toWorld = translation({0, 0, z}) * scaling({1, 1, 1});
+        return compileScene(description).notes;
+    };
+    EXPECT_TRUE(notesOf(0.99 / (8 * spacing), 1).empty());
+    EXPECT_TRUE(notesOf(1.98 / (8 * spacing), 0.5).empty()) << "the density counts";
+    const std::vector<std::string> notes = notesOf(1.01 / (8 * spacing), 1);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(contains(notes[0], "medium \"fog\" in cube \"box\": its mean free path, 1.04e-05")) << notes[0];
+    EXPECT_FALSE(notesOf(0.99 / (8 * spacing), 1, 1).empty()) << "so does the distance";
+    EXPECT_TRUE(notesOf(1.01 / (8 * spacing), 1, -1).empty());
+}
+
 TEST(CompiledMedia, SingularPlacementsAndOverflowAreRefused) {
     MediumDescription flat = gridMedium("m", counting({2, 2, 2}));
     flat.density->toWorld = scaling({1, 1, 0});
