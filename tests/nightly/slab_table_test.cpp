@@ -31,7 +31,7 @@ TEST_P(SlabTable, HoldsTo2PerMille) {
         for (const SlabRow& row : rows) {
             const SlabView view{.mu = mu, .litFromAbove = litFromAbove, .thickness = thickness};
             const CompiledScene scene = slabScene(row, view);
-            const Film film = renderOn(backend, scene, samplesFor(scene, litFromAbove ? 7e6 : 1.4e6), ++seed);
+            const Film film = renderOn(backend, scene, samplesFor(scene, litFromAbove ? 3e6 : 2e5), ++seed);
             EXPECT_EQ(countAnomalies(film), 0u);
             scores.add(imageMean(film), row.exact(mu, litFromAbove), row.name());
         }
