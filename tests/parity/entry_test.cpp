@@ -44,7 +44,7 @@ TEST(EntryParity, MeshesEnteredUnnoticedAreTheSame) {
         EXPECT_TRUE(parity.equal(words.y, ray.inside)) << i;
         noticed += ray.inside != ids.y;
     }
-    EXPECT_GT(noticed, 300u);
+    EXPECT_GT(noticed, 100u) << "nothing was tested";
 }
 
 }  // namespace
