@@ -58,7 +58,8 @@ CLI::App* addConvertCommand(CLI::App& program, ConvertArguments& arguments) {
 int runConvertCommand(const ConvertArguments& arguments) {
     Interruption interruption;
     { const AtomicFile probe(arguments.output); }
-    const Volume volume = readVolume(arguments.input, {.file = arguments.input}, {.gridName = arguments.grid});
+    const Volume volume = readVolume(arguments.input, {.file = arguments.input},
+                                     {.gridName = arguments.grid, .gridNameWhere = {"--grid"}});
     {
         const auto lock = interruption.holdOff();
         writeVolume(arguments.output, volume, arguments.write);

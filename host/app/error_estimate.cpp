@@ -6,10 +6,11 @@
 namespace parhelion::app {
 
 std::optional<double> estimateRelativeError(const Film& film) {
-    if (film.samples < 2 || film.pixels.empty()) return std::nullopt;
-    const double count = static_cast<double>(film.samples);
     double meanSum = 0, varianceSum = 0;
-    for (const shared::FilmPixel& pixel : film.pixels) {
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        const shared::FilmPixel& pixel = film.pixels[i];
+        const double count = static_cast<double>(film.pixelSamples.empty() ? film.samples : film.pixelSamples[i]);
+        if (count < 2) return std::nullopt;
         const glm::dvec3 mean = (glm::dvec3(pixel.sumHigh) + glm::dvec3(pixel.sumLow)) / count;
         const glm::dvec3 square = (glm::dvec3(pixel.squareHigh) + glm::dvec3(pixel.squareLow)) / count;
         for (int channel = 0; channel < 3; ++channel) {

@@ -8,7 +8,7 @@ namespace parhelion::app {
 
 /// The image's noise relative to its brightness: sqrt(mean variance of the pixel means) / mean pixel, over all
 /// pixels and channels. Estimated from the film's own samples, so it misses what they have not yet met (fireflies).
-/// Nothing for fewer than two samples per pixel, or a black image.
+/// Nothing before each pixel has two samples, or for a black image.
 std::optional<double> estimateRelativeError(const Film& film);
 
 }  // namespace parhelion::app

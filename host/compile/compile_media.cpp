@@ -15,9 +15,6 @@ namespace parhelion {
 
 namespace {
 
-constexpr std::size_t kMaxTexels = std::size_t(1) << 27;   // of a texel buffer
-constexpr std::size_t kMaxDensityVoxels = 4 * kMaxTexels;  // four voxels a texel
-
 std::string nameOf(const MediumDescription& medium) {
     return medium.id.empty() ? std::string("medium") : fmt::format("medium \"{}\"", medium.id);
 }
@@ -116,30 +113,55 @@ void writeDensity(const MediumDescription& medium, const glm::dvec3& worldOrigin
     if (bricked) record.flags |= shared::kMediumBricked;
 }
 
-void requireAtMost(std::size_t needed, std::size_t allowed, const char* unit, const std::string& what) {
-    if (needed > allowed)
-        throw RuntimeFailure(fmt::format("{} need {} {}; allowed are {}", what, needed, unit, allowed));
-}
+/// The largest grid of a kind: what to blame when all of them together are too large.
+struct LargestGrid {
+    std::size_t texels = 0;
+    SourceLocation where;
+    std::string name;
+
+    void consider(const MediumDescription& medium, const GridPlacement& placement, const char* role) {
+        if (texels > 0 && texelCount(placement) <= texels) return;
+        const glm::uvec3 n = resolutionOf(placement.volume);
+        texels = texelCount(placement);
+        where = placement.where;
+        name = fmt::format("{}: {} of {} x {} x {} voxels", nameOf(medium), role, n.x, n.y, n.z);
+    }
+
+    void requireAtMost(std::size_t needed, std::size_t allowed, const std::string& unit) const {
+        if (needed <= allowed) return;
+        throw InputError(where, fmt::format("{}, the largest grid: all grids of the scene together need {} {}; allowed "
+                                            "are {}; half as many voxels along each axis need an eighth",
+                                            name, needed, unit, allowed));
+    }
+};
 
 /// Before anything large is allocated.
 DensityPlan planStorage(std::span<const MediumDescription* const> media, std::size_t memoryLimitBytes) {
     std::vector<const DensityGrid*> grids;
+    LargestGrid density, albedo;
     std::size_t cells = 0, albedoCount = 0;
     for (const MediumDescription* medium : media) {
         if (medium->density) {
             const DensityGrid& grid = medium->density->volume.density;
             grids.push_back(&grid);
             cells += grid.brickTable().size();
+            density.consider(*medium, *medium->density, "density");
         }
-        if (medium->albedoGrid) albedoCount += texelCount(*medium->albedoGrid);
+        if (medium->albedoGrid) {
+            albedoCount += texelCount(*medium->albedoGrid);
+            albedo.consider(*medium, *medium->albedoGrid, "albedo");
+        }
     }
     const DensityPlan plan = planDensityStorage(grids);
-    requireAtMost(plan.voxels, kMaxDensityVoxels, "voxels", "density grids");
-    requireAtMost(plan.tableEntries, kMaxTexels, "bricks", "density grids");
-    requireAtMost(cells, kMaxTexels, "cells", "majorant grids");
-    requireAtMost(albedoCount, kMaxTexels, "voxels", "albedo grids");
-    requireAtMost(plan.bytes() + sizeof(float) * cells + sizeof(glm::vec4) * albedoCount, memoryLimitBytes, "bytes",
-                  "density and albedo grids");
+    density.requireAtMost(plan.voxels, kMaxTexels,
+                          plan.bricked ? "voxels of density in bricks that are not empty" : "voxels of density");
+    density.requireAtMost(plan.tableEntries, kMaxTexels, "bricks of density");
+    density.requireAtMost(cells, kMaxTexels, "majorants");
+    albedo.requireAtMost(albedoCount, kMaxTexels, "voxels of albedo");
+    const std::size_t densityBytes = plan.bytes() + sizeof(float) * cells,
+                      albedoBytes = sizeof(glm::vec4) * albedoCount;
+    (albedoBytes > densityBytes ? albedo : density)
+        .requireAtMost(densityBytes + albedoBytes, memoryLimitBytes, "bytes of memory");
     return plan;
 }
 

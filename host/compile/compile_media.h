@@ -14,12 +14,13 @@ std::vector<bool> findEmptyMedia(const SceneDescription& description, std::vecto
 /// Writes media records, density, majorants and albedo voxels.
 ///
 /// All density grids are stored alike, since the kernel reads one kind: dense, or bricked if any one of them is large
-/// and mostly empty (more than 64 MiB dense with under 60 % of its bricks occupied) or huge (more than 1 GiB dense).
+/// and mostly empty (more than 64 MiB dense with under 60 % of its bricks occupied), or if they need more than
+/// kMaxTexels voxels together.
 /// @param media       in the order of the records to write; none of them empty.
 /// @param worldOrigin subtracted from every placement.
 /// @param memoryLimitBytes  for the arrays written here.
-/// @throws InputError for more than kMaxMedia media, singular placements and albedos outside [0, 1];
-///         RuntimeFailure, stating what is needed and allowed, for grids beyond the limits.
+/// @throws InputError for more than kMaxMedia media, singular placements, albedos outside [0, 1], and grids beyond the
+///         limits (kMaxTexels voxels of density, and of albedo), naming the largest.
 void compileMedia(std::span<const MediumDescription* const> media, const glm::dvec3& worldOrigin,
                   std::size_t memoryLimitBytes, CompiledScene& scene);
 

@@ -8,8 +8,7 @@ namespace {
 
 constexpr std::size_t kMiB = std::size_t(1) << 20;
 constexpr std::size_t kSparseFromBytes = 64 * kMiB;  // smaller grids are not worth the second look-up
-constexpr std::size_t kBrickedFromBytes = 1024 * kMiB;
-constexpr double kSparseOccupancy = 0.6;  // of the bricks
+constexpr double kSparseOccupancy = 0.6;             // of the bricks
 
 std::size_t voxelCount(const DensityGrid& grid) {
     const glm::uvec3 n = grid.resolution();
@@ -20,14 +19,17 @@ bool wantsBricks(const DensityGrid& grid) {
     const std::size_t denseBytes = sizeof(float) * voxelCount(grid);
     const double occupied = double(grid.voxels().size()) / DensityGrid::kBrickVoxels;
     const bool sparse = occupied < kSparseOccupancy * double(grid.brickTable().size());
-    return denseBytes > kBrickedFromBytes || (denseBytes > kSparseFromBytes && sparse);
+    return denseBytes > kSparseFromBytes && sparse;
 }
 
 }  // namespace
 
 DensityPlan planDensityStorage(std::span<const DensityGrid* const> grids) {
     DensityPlan plan;
-    plan.bricked = std::ranges::any_of(grids, [](const DensityGrid* grid) { return wantsBricks(*grid); });
+    std::size_t denseVoxels = 0;
+    for (const DensityGrid* grid : grids) denseVoxels += voxelCount(*grid);
+    plan.bricked =
+        denseVoxels > kMaxTexels || std::ranges::any_of(grids, [](const auto* g) { return wantsBricks(*g); });
     for (const DensityGrid* grid : grids) {
         plan.voxels += plan.bricked ? grid->voxels().size() : voxelCount(*grid);
         plan.tableEntries += plan.bricked ? grid->brickTable().size() : 0;

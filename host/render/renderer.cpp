@@ -65,6 +65,7 @@ struct Renderer::State {
     void raiseLimit(std::uint32_t slowest);
     void checkCounters();
     void adaptBudget();
+    std::vector<std::uint64_t> samplesByPixel();
     shared::PathArguments arguments(const Batch& running) const;
     double pathsDone() const { return static_cast<double>(counters[shared::kCounterPathsFinished]); }
     double pixels() const { return static_cast<double>(scene.cropSize.x) * scene.cropSize.y; }
@@ -84,7 +85,6 @@ void Renderer::State::beginWindow() {
 }
 
 void Renderer::State::raiseLimit(std::uint32_t slowest) {
-    if (stopping) return;
     const double ahead = std::clamp(kRunAheadMs / passMs(), double(kMinimumRunAhead), 1e9);
     limit = static_cast<std::uint32_t>(std::min<double>(windowSize, std::max<double>(limit, slowest + ahead)));
 }
@@ -110,6 +110,18 @@ void Renderer::State::adaptBudget() {
     const double factor = std::clamp(kTargetMs / std::max(lastMs, 0.1), 0.25, 2.0);
     loopBudget = static_cast<std::uint32_t>(
         std::clamp(loopBudget * factor, double(kMinimumBudget), double(PathTracePass::kMaximumLoopBudget)));
+}
+
+/// Within a window batches, and the pixels of a batch, differ.
+std::vector<std::uint64_t> Renderer::State::samplesByPixel() {
+    std::vector<std::uint64_t> samples;
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        samples.insert(samples.end(), batches[i].laneCount, windowStart + (i < batch ? windowSize : 0));
+        if (i != batch || restart) continue;
+        const auto done = pass.samplesDone(i);
+        std::ranges::transform(done, samples.end() - batches[i].laneCount, [&](auto n) { return windowStart + n; });
+    }
+    return samples;
 }
 
 shared::PathArguments Renderer::State::arguments(const Batch& running) const {
@@ -146,13 +158,12 @@ bool Renderer::step() {
     s.checkCounters();
     const auto done = s.pass.samplesDone(s.batch);
     const std::uint32_t slowest = *std::ranges::min_element(done);
-    if (slowest >= s.limit && (s.limit >= s.windowSize || s.stopping)) {
-        if (s.stopping) s.windowSize = s.limit;
+    if (slowest >= s.windowSize) {
         s.restart = true;
         if (++s.batch == s.batches.size()) {
             s.windowStart += s.windowSize;
             s.windowSize = 0;
-        } else if (!s.stopping) {
+        } else {
             s.limit = 0;
             s.raiseLimit(0);
         }
@@ -163,7 +174,12 @@ bool Renderer::step() {
     return s.windowSize != 0 || (!s.stopping && s.windowStart < s.settings.sampleCount);
 }
 
-void Renderer::finishEarly() { state_->stopping = true; }
+void Renderer::finishEarly() {
+    State& s = *state_;
+    s.stopping = true;
+    // Every batch takes as many samples as the first (numerics H81): only there is it still open how many.
+    if (s.batch == 0) s.windowSize = std::min(s.windowSize, s.limit);
+}
 
 Progress Renderer::progress() const {
     const State& s = *state_;
@@ -176,6 +192,7 @@ Film Renderer::film() {
     film.filmSize = s.scene.filmSize;
     film.crop = {s.scene.cropOffset, s.scene.cropSize};
     film.samples = s.windowStart;
+    if (s.windowSize != 0) film.pixelSamples = s.samplesByPixel();
     film.pixels = s.pass.film();
     film.counters = s.counters;
     film.features = renderFeatures(s.device, s.scene, s.deviceScene, s.settings, s.constants);

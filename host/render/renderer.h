@@ -30,10 +30,10 @@ public:
     /// Runs one dispatch. Returns false when every sample is done.
     /// @throws RuntimeFailure when the device cut a loop or a traversal short.
     bool step();
-    /// No further window is begun: step() returns false once the samples begun are done.
+    /// No further samples are begun but for pixels that are behind: step() returns false once all have equally many.
     void finishEarly();
     Progress progress() const;
-    /// The film so far, whole windows only.
+    /// The film so far: within a window with the samples of each pixel, and `samples` those all pixels have.
     Film film();
 
 private:

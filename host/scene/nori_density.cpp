@@ -60,6 +60,7 @@ Volume readFile(ReadContext& context, PropertyReader& reader, const char* name) 
     VolumeReadOptions options;
     options.memoryLimitBytes = context.options.volumeMemoryLimitBytes;
     if (const XmlAttribute* grid = reader.text("gridName")) options.gridName = grid->value;
+    options.gridNameWhere = reader.whereOf("gridName");
     const std::filesystem::path file = reader.file(name);
     Volume volume = readVolume(file, reader.whereOf(name), options);
     if (volume.channels != 1)

@@ -48,6 +48,7 @@ GridPlacement readGrid(ReadContext& context, PropertyReader& reader, VolumeRole 
     VolumeReadOptions options;
     options.memoryLimitBytes = context.options.volumeMemoryLimitBytes;
     if (const XmlAttribute* name = reader.text("grid_name")) options.gridName = name->value;
+    options.gridNameWhere = reader.whereOf("grid_name");
     const std::filesystem::path file = reader.file("filename");
     const bool useBounds = reader.boolean("use_grid_bbox", false);
     reader.finish();

@@ -16,13 +16,14 @@ namespace {
 struct Format {
     std::string_view magic;
     Volume (*read)(const VolumeBytes&);
+    bool hasNames;  ///< of grids, any number of which a file may hold
 };
 
 constexpr std::array<Format, 4> kFormats{{
-    {"VOL", readMitsubaVolume},
-    {"PARHGRID", readGridVolume},
-    {std::string_view(" BDV\0\0\0\0", 8), readOpenVdbVolume},
-    {"NanoVDB", readNanoVdbVolume},
+    {"VOL", readMitsubaVolume, false},
+    {"PARHGRID", readGridVolume, false},
+    {std::string_view(" BDV\0\0\0\0", 8), readOpenVdbVolume, true},
+    {"NanoVDB", readNanoVdbVolume, true},
 }};
 
 bool startsWith(std::span<const std::byte> bytes, std::string_view magic) {
@@ -52,6 +53,11 @@ Volume readVolume(const std::filesystem::path& file, const SourceLocation& where
     const SourceLocation blamed{file.string()};
     for (const Format& format : kFormats) {
         if (!startsWith(bytes, format.magic)) continue;
+        if (!format.hasNames && !options.gridName.empty())
+            throw InputError(options.gridNameWhere,
+                             fmt::format("only .vdb and .nvdb files have named grids, {} holds a single one without a "
+                                         "name; got \"{}\"",
+                                         file.string(), options.gridName));
         Volume volume = format.read({bytes, blamed, options});
         volume.source = volume.source.empty() ? file.string() : fmt::format("{} ({})", file.string(), volume.source);
         return volume;

@@ -12,6 +12,7 @@ namespace parhelion {
 /// How to read a volume file.
 struct VolumeReadOptions {
     std::string gridName;              ///< .vdb, .nvdb: grid to read; empty: "density", else the first float grid
+    SourceLocation gridNameWhere;      ///< blamed for a gridName that the format has no use for
     std::size_t memoryLimitBytes = 0;  ///< refuse larger grids before allocating; 0: half of the machine's memory
 };
 
@@ -22,8 +23,8 @@ struct VolumeReadOptions {
 /// and the values decoded from a dense .grid or an .nvdb come on top while it is read.
 ///
 /// @param where  blamed for a missing file (the scene's location of the name); the file itself is blamed for damage.
-/// @throws InputError for a missing, truncated, damaged or too large file, and for values that are
-///         negative or not finite (naming the first voxel).
+/// @throws InputError for a missing, truncated, damaged or too large file, for a gridName where the file holds one
+///         nameless grid, and for values that are negative or not finite (naming the first voxel).
 Volume readVolume(const std::filesystem::path& file, const SourceLocation& where,
                   const VolumeReadOptions& options = {});
 

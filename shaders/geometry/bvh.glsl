@@ -22,6 +22,10 @@ float boxEntry(vec3 minimum, vec3 maximum, vec3 origin, vec3 inverse, float tMin
     return t0 <= t1 ? t0 : kInfinity;
 }
 
+// Distances to triangles round more than those to their bounds: by the width of a triangle, not by the distance.
+// Without a margin a ray that has left a medium misses the floor that the medium stands on.
+const float kDistanceMargin = 0.001;
+
 void hitLeaf(inout Hit best, Ray ray, RayShear shear, int leaf, uint firstPrimitive) {
     uint first = uint(leaf) >> 3u, count = uint(leaf) & 7u;
     for (uint i = 0u; i < kMaxLeafTriangles; ++i) {
@@ -52,13 +56,14 @@ bool traverse(inout Hit best, Ray ray, uint firstPrimitive, bool active_, inout 
     int depth = 0;
     int node = active_ ? 0 : kBvhEnd;
     uint steps = 0u;
+    float tMin = ray.tMin * (1.0 - kDistanceMargin);
     while (node != kBvhEnd && steps < kMaxTraversalSteps) {
         ++steps;
         int texel = int(kBvhNodeTexels) * max(node, 0);
         vec4 min0 = texelFetch(bvhTexels, texel), max0 = texelFetch(bvhTexels, texel + 1);
         vec4 min1 = texelFetch(bvhTexels, texel + 2), max1 = texelFetch(bvhTexels, texel + 3);
-        float t0 = boxEntry(min0.xyz, max0.xyz, ray.origin, inverse, ray.tMin, best.t);
-        float t1 = boxEntry(min1.xyz, max1.xyz, ray.origin, inverse, ray.tMin, best.t);
+        float t0 = boxEntry(min0.xyz, max0.xyz, ray.origin, inverse, tMin, best.t * (1.0 + kDistanceMargin));
+        float t1 = boxEntry(min1.xyz, max1.xyz, ray.origin, inverse, tMin, best.t * (1.0 + kDistanceMargin));
         int child0 = floatBitsToInt(min0.w), child1 = floatBitsToInt(min1.w);
         if (node >= 0) {
             bool swap = t1 < t0;

@@ -68,6 +68,19 @@ Hit closestHit(Ray ray, bool active_, inout uint tests, inout bool ok) {
     return best;
 }
 
+// `inside` of a ray whose first hit is `hit`: a ray from a surface in a mesh's boundary may start beyond it.
+uint noticeEntry(Ray ray, Hit hit) {
+    uint index = hit.primitive - (quadCount + sphereCount + boxCount);
+    bool isTriangle = hit.primitive != kNone && index < triangleCount;
+    int texel = int(kTriangleTexels * (isTriangle ? index : 0u));
+    vec4 a = texelFetch(triangleTexels, texel);
+    vec3 b = texelFetch(triangleTexels, texel + 1).xyz, c = texelFetch(triangleTexels, texel + 2).xyz;
+    uint shape = isTriangle ? floatBitsToUint(a.w) : 0u;
+    bool isNull = isTriangle && (shapeAt(shape).flags & kShapeNull) != 0u;
+    bool starts = ray.last != kNone && ray.tMin == 0.0 && !surrounds(shape, ray.inside);
+    return isNull && starts && dot(ray.direction, cross(b - a.xyz, c - a.xyz)) > 0.0 ? shape : ray.inside;
+}
+
 // `inside` after the ray crosses a null boundary at `hit`.
 uint crossBoundary(Ray ray, Hit hit, uint shapeIndex, uint exterior, vec3 geometricNormal) {
     uint first = quadCount;

@@ -91,6 +91,7 @@ void startSegment(inout Path p, bool starts, inout Counts counts) {
     if (!starts) return;
     // Nothing ahead although inside: a mesh boundary was missed within rounding; it has been left.
     if (hasTriangles && hit.primitive == kNone && isinf(hit.t)) p.ray.inside = kNone;
+    if (hasTriangles && hasMedia) p.ray.inside = noticeEntry(p.ray, hit);
     p.hit = hit;
     p.segment.t = p.ray.tMin;
     p.segment.end = hit.t;

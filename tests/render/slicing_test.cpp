@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <functional>
 
 #include "image/image.h"
 #include "render/renderer.h"
@@ -100,6 +101,42 @@ TEST(Slicing, FinishingEarlyIsAShorterRun) {
     ASSERT_LT(film.samples, 1u << 20);
     EXPECT_EQ(film.counters[shared::kCounterPathsFinished], film.samples * film.pixels.size());
     EXPECT_EQ(countDifferentPixels(film, renderVulkan(scene, settingsFor(scene, film.samples))), 0u);
+}
+
+/// Pixels whose sum is not that of `samples` ones.
+std::size_t countOtherSums(const Film& film, const std::function<std::uint64_t(std::size_t)>& samples) {
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) others += film.pixels[i].sumHigh.x != float(samples(i));
+    return others;
+}
+
+// numerics H81: a film in two batches under a sky of radiance 1, whose sums are counts, stopped while the second batch
+// is behind the first: each pixel is divided by what it holds, then and at the end.
+TEST(Slicing, SamplesAreCountedPerPixelWhereverARenderStops) {
+    const std::string sky = R"(<emitter type="constant"><float name="radiance" value="1"/></emitter>)";
+    const CompiledScene scene = compileText(sceneXml(sky), {512, 264});
+    RenderSettings settings = settingsFor(scene, 1 << 20);
+    settings.featureSamples = 0;
+    render::Renderer renderer(testDevice(), scene, settings);
+    std::size_t sharedCountIsWrong = 0;
+    bool stopped = false;
+    while (renderer.step() && !stopped) {
+        const Film film = renderer.film();
+        if (film.pixelSamples.empty()) continue;
+        ASSERT_EQ(countOtherSums(film, [&](std::size_t i) { return film.pixelSamples[i]; }), 0u);
+        sharedCountIsWrong += countOtherSums(film, [&](std::size_t) { return film.samples; });  // the naive divisor
+        // The first batch has finished its second window, the other has begun it.
+        stopped = film.pixelSamples.back() > 4 && film.pixelSamples.back() < film.pixelSamples.front();
+    }
+    ASSERT_TRUE(stopped);
+    EXPECT_GT(sharedCountIsWrong, 0u);
+    renderer.finishEarly();
+    while (renderer.step()) {
+    }
+    const Film film = renderer.film();
+    ASSERT_LT(film.samples, settings.sampleCount);
+    EXPECT_EQ(film.counters[shared::kCounterPathsFinished], film.samples * film.pixels.size());
+    EXPECT_EQ(countOtherSums(film, [&](std::size_t) { return film.samples; }), 0u);
 }
 
 TEST(Slicing, VectorWidthsChangeNoBit) {

@@ -97,6 +97,13 @@ TEST(FreeFlight, FollowsLinearDensity) {
     EXPECT_NEAR(std::exp(-medium.exact->total()), 0.427414932, 2e-7);
     EXPECT_NEAR(medium.exact->at(0.736602839), 0.5, 2e-7);
     flightsThrough(medium).expectFit("linear");
+    flightsThrough(medium, true, 0.98, 0.5).expectMisfit("sigma off by 2 %");
+    // Two voxels for 17: the ray then starts and ends half a voxel of the others' length inside.
+    const TrackedMedium coarse = TrackedMedium::grid(1.5f, {2, 1, 1}, std::vector{voxels.front(), voxels.back()},
+                                                     {1, 1, 1}, {0, 0.5f, 0.5f}, {1, 0.5f, 0.5f});
+    Tracker tracker(coarse);
+    flightsInto([&](std::uint32_t i) { return tracker.fly(i); }, [&](double t) { return medium.exact->at(t); }, 1, 0.5)
+        .expectMisfit("linear between the borders for between the centres");
 }
 
 TrackedMedium lumps(glm::vec3 from, glm::vec3 to, float slack = 1) {
@@ -121,7 +128,7 @@ TEST(FreeFlight, BoundsTooLowWouldBeSeen) {  // H17: in a constant density the f
     const auto constant = [&](float slack) {
         return TrackedMedium::grid(1, {2, 2, 2}, voxels, {1, 1, 1}, {0.1f, 0.2f, 0}, {0.3f, 0.7f, 1}, slack);
     };
-    flightsThrough(constant(1), true, 1, 0.5).expectFit("constant");
+    flightsThrough(constant(1)).expectFit("constant");
     flightsThrough(constant(0.9f), true, 1, 0.5).expectMisfit("bounds a tenth too low");
 }
 
@@ -136,16 +143,14 @@ test::HandScene twoTouchingMedia() {
     return scene;
 }
 
-TEST(FreeFlight, FollowsAStepBetweenTwoMedia) {  // H38
-    const test::HandScene scene = twoTouchingMedia();
-    const SceneView<float> view(scene.scene);
-    const Quality quality;
-    Counters counters{};
-    NoTrace trace;
-    RunningMoments distance;
-    std::uint64_t firstHalf = 0, flights = 0;
-    const auto flight = [&](std::uint32_t i) -> std::optional<float> {
-        const PathContext<float, NoTrace> path{view, quality, streamOf(i, 0, 0, 0), 0, counters, trace};
+/// Flies from the origin along z through media that touch.
+class StepFlight {
+public:
+    explicit StepFlight(const test::HandScene& scene) : view_(scene.scene) {}
+
+    /// Distance of path number i's first event, or nothing.
+    std::optional<float> operator()(std::uint32_t i) {
+        const PathContext<float, NoTrace> path{view_, quality_, streamOf(i, 0, 0, 0), 0, counters, trace_};
         const glm::uvec4 words = draw(path.stream.key, 0, shared::kDrawCamera);
         PathState<float> state;
         state.ray.origin = glm::vec3(0);
@@ -153,14 +158,33 @@ TEST(FreeFlight, FollowsAStepBetweenTwoMedia) {  // H38
         state.ray.inside = 0;
         state.residual = {exponential<float>(words.z, words.w >> 8)};
         const FlightEnd<float> end = fly(path, state);
-        ++flights;
         if (end.kind == FlightEnd<float>::Kind::Escape) return std::nullopt;
-        firstHalf += end.t < 0.5f;
-        distance.add(end.t);
         return end.t;
+    }
+
+    Counters counters{};
+
+private:
+    SceneView<float> view_;
+    Quality quality_;
+    NoTrace trace_;
+};
+
+double stepDepth(double t) { return t < 0.5 ? 0.25 * t : 0.125 + 0.75 * (t - 0.5); }
+
+TEST(FreeFlight, FollowsAStepBetweenTwoMedia) {  // H38
+    const test::HandScene scene = twoTouchingMedia();
+    StepFlight step(scene);
+    RunningMoments distance;
+    std::uint64_t firstHalf = 0, flights = 0;
+    const auto flight = [&](std::uint32_t i) {
+        const std::optional<float> t = step(i);
+        ++flights;
+        firstHalf += t && *t < 0.5f;
+        if (t) distance.add(*t);
+        return t;
     };
-    const auto tau = [](double t) { return t < 0.5 ? 0.25 * t : 0.125 + 0.75 * (t - 0.5); };
-    flightsInto(flight, tau, 1).expectFit("step");
+    flightsInto(flight, stepDepth, 1).expectFit("step");
     // The numbers of the list of hard cases, derived apart from tau above.
     const double n = double(flights), limit = twoSidedThreshold(significance());
     const auto expectShare = [&](double found, double p) {
@@ -170,7 +194,31 @@ TEST(FreeFlight, FollowsAStepBetweenTwoMedia) {  // H38
     expectShare(double(distance.count() - firstHalf), 0.2759662429);
     test::expectMean(distance, 0.5881950555, significance(), "mean distance");
     // The number of tentative collisions is at most Poisson distributed in variance.
-    EXPECT_NEAR(double(counters[shared::kCounterCollisions]) / n, 0.6284755, limit * std::sqrt(0.75 / n));
+    EXPECT_NEAR(double(step.counters[shared::kCounterCollisions]) / n, 0.6284755, limit * std::sqrt(0.75 / n));
+}
+
+/// 32 bins of equal length, and one for what escapes.
+CellTest firstEvents(StepFlight step, double share = 1) {
+    constexpr std::size_t kBins = 32;
+    std::vector<double> probabilities;
+    for (std::size_t i = 0; i < kBins; ++i)
+        probabilities.push_back(std::exp(-stepDepth(double(i) / kBins)) - std::exp(-stepDepth(double(i + 1) / kBins)));
+    probabilities.push_back(std::exp(-0.5));
+    CellTest cells(probabilities, significance());
+    const auto count = std::uint32_t(share * double(cells.samplesNeeded()));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::optional<float> t = step(i);
+        cells.add(t ? test::partOf(double(*t), kBins) : kBins);
+    }
+    return cells;
+}
+
+// The baseline's test of this name: density 0.25, then 0.75 over a unit segment, there with p = 0.445.
+TEST(BaselineFirstEvent, ChiSquareIn33BinsOfDistance) {
+    test::HandScene scene = twoTouchingMedia();
+    firstEvents(StepFlight(scene)).expectFit("first event");
+    scene.medium(0).sigmaMax *= 1.02f;
+    firstEvents(StepFlight(scene), 0.5).expectMisfit("first density off by 2 %");
 }
 
 TEST(FreeFlight, KolmogorovSmirnovAgrees) {

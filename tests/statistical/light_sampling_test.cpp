@@ -197,7 +197,7 @@ TEST(LightSampling, MeshTrianglesAreChosenByArea) {
     std::vector<double> shares;
     for (int i = 0; i < 4; ++i)
         for (int half = 0; half < 2; ++half) shares.push_back((i + 1) / 10.0 * (half == 0 ? 0.75 : 0.25));
-    CellTest cells(shares, significance());
+    CellTest cells(shares, significance()), even(shares, significance());
     IndependentNumbers numbers(4);
     for (std::uint64_t n = cells.samplesNeeded(); n > 0; --n) {
         const float u = numbers.uniform<float>();
@@ -206,8 +206,10 @@ TEST(LightSampling, MeshTrianglesAreChosenByArea) {
         const int i = std::min(int(x), 3);
         // Left of the middle of its base a right triangle has three quarters of its area.
         cells.add(std::size_t(2 * i) + (x - i > 0.45 ? 1u : 0u));
+        even.add(std::size_t(2 * partOf(u, 4)) + (x - i > 0.45 ? 1u : 0u));
     }
     cells.expectFit("mesh");
+    even.expectMisfit("every triangle as often");
 }
 
 TEST(LightSampling, LightsAreSelectedAsTheCompilerSays) {
@@ -241,15 +243,17 @@ TEST(LightSampling, EnvironmentIsUniform) {
     scene.setEnvironment(glm::vec3(1));
     scene.scene.constants.lights[0].selection = scene.scene.constants.lights[0].cumulative = 1;
     const SceneView<float> view(scene.scene);
-    CellTest cells(18, significance());
+    CellTest cells(18, significance()), tilted(18, significance());
     IndependentNumbers numbers(6);
     for (std::uint64_t i = cells.samplesNeeded(); i > 0; --i) {
         const auto sample = sampleLight(view, glm::vec3(1), lightPoint({0, numbers.pair<float>()}));
         const glm::dvec3 d(sample->direction);
         cells.add(partOf((1 - d.z) / 2, 6) * 3 + partOf(test::turnOf(d.x, d.y), 3));
+        tilted.add(partOf((1 - d.z) / 2 + 0.01 * (1 - d.z * d.z), 6) * 3 + partOf(test::turnOf(d.x, d.y), 3));
         ASSERT_NEAR(double(sample->pdf) * 4 * kPi<double>, 1, 1e-6);
     }
     cells.expectFit("environment");
+    tilted.expectMisfit("denser towards a pole by 1 %");
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ CellTest scatterIntoBins(const PhaseCase& phase, const Sampler& sampler, double 
 }
 
 // The baseline's test of this name, there with 200 000 samples at 1 %.
-TEST(PhaseFunctions, DualHenyeyGreensteinChiSquareIn200BinsOfCosThetaAndPhi) {
+TEST(BaselineDualHenyeyGreenstein, ChiSquareIn200BinsOfCosThetaAndPhi) {
     const PhaseCase phase("dual", dualHenyeyGreenstein(0.85, -0.3, 0.7));
     scatterIntoBins(phase, samplerOf(phase)).expectFit(phase.name());
     const PhaseCase wrong("weight off by 0.01", dualHenyeyGreenstein(0.85, -0.3, 0.71));

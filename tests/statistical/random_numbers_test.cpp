@@ -145,6 +145,7 @@ TEST(FilmPositions, FollowTheReconstructionFilter) {
     tent.film.filterRadius = 1.5;
     gaussian.film.filter = ReconstructionFilter::Gaussian;
     gaussian.film.filterStddev = 0.5;
+    gaussian.film.filterRadius = 2;
     const auto tentCdf = [](double x) {
         const double y = 1 - std::min(1.0, std::abs(x) / 1.5), half = y * y / 2;
         return x < 0 ? half : 1 - half;

@@ -5,10 +5,12 @@
 #include <functional>
 #include <numbers>
 
+#include "reference/surface/bsdf.h"
 #include "reference/volume/phase_function.h"
 #include "support/goodness.h"
 
-// Directions and points against closed-form distribution functions. Family: 7 phase functions, 7 x 4 moments, 5 warps.
+// Directions and points against closed-form distribution functions. Family: 7 phase functions, 7 x 4 moments, 8 warps,
+// 3 normals.
 namespace parhelion::reference {
 namespace {
 
@@ -18,7 +20,7 @@ using test::partOf;
 using test::turnOf;
 
 constexpr std::array kAsymmetries{-0.9, -0.3, 0.0, 1e-4, 0.5, 0.9, 0.999};
-constexpr std::size_t kTests = 40;
+constexpr std::size_t kTests = 48;
 constexpr std::size_t kPolar = 6, kAzimuth = 3;
 
 double significance() { return sidak(test::kFamilySignificance, kTests); }
@@ -135,6 +137,41 @@ TEST(Warps, CosineHemisphereHasDensityCosineOverPi) {
     const auto cell = [](const glm::vec3& d) { return cellAbout(sine2(d), d); };
     warpInto([&](const glm::vec2& u) { return cell(cosineHemisphere(u)); }).expectFit("cosine");
     warpInto([&](const glm::vec2& u) { return cell(uniformCone(u, 1.0f)); }).expectMisfit("without the cosine");
+}
+
+using DiffuseSampler = std::function<glm::vec3(const glm::vec3& normal, const glm::vec2& u)>;
+
+/// Cells of equal probability by squared sine to the normal and azimuth about it; normals on both hemispheres and -z.
+CellTest reflectInto(const glm::vec3& normal, const DiffuseSampler& sampler) {
+    const glm::dvec3 n(normal), side = glm::normalize(glm::cross(n, glm::dvec3(0.1, 1, 0))), up = glm::cross(n, side);
+    return warpInto([&](const glm::vec2& u) {
+        const glm::dvec3 d(sampler(normal, u));
+        const double x = glm::dot(d, side), y = glm::dot(d, up);
+        return partOf(x * x + y * y, kPolar) * kAzimuth + partOf(turnOf(x, y), kAzimuth);
+    });
+}
+
+TEST(DiffuseSampling, HasDensityCosineOverPiAboutEveryNormal) {
+    const DiffuseSampler sampler = [](const auto& normal, const auto& u) { return sampleDiffuse(normal, u).direction; };
+    for (const glm::vec3 direction : {glm::vec3(0.3f, -0.5f, 0.7f), glm::vec3(1, 2, -0.01f), glm::vec3(0, 0, -1)}) {
+        const glm::vec3 normal = glm::normalize(direction);
+        reflectInto(normal, sampler).expectFit("diffuse");
+        IndependentNumbers numbers(8);
+        for (int i = 0; i < 10'000; ++i) {
+            const DirectionSample<float> sample = sampleDiffuse(normal, numbers.pair<float>());
+            // The frame, the product and the normalisation round: 8 roundings of numbers up to 1.
+            const float exact = float(glm::dot(glm::dvec3(normal), glm::dvec3(sample.direction)) / std::numbers::pi);
+            ASSERT_NEAR(sample.pdf, exact, 8 * 0x1p-24f);
+            ASSERT_NEAR(pdfDiffuse(normal, sample.direction), exact, 8 * 0x1p-24f);
+        }
+    }
+    const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f));
+    reflectInto(normal, [&](const glm::vec3& n, const glm::vec2& u) {
+        return sampler(glm::normalize(n + glm::vec3(0.01f, 0, 0)), u);
+    }).expectMisfit("a normal off by half a degree");
+    reflectInto(normal, [](const glm::vec3& n, const glm::vec2& u) {
+        return toWorld(frameFromNormal(n), uniformCone(u, 1.0f));
+    }).expectMisfit("without the cosine");
 }
 
 TEST(Warps, SphereIsUniform) {

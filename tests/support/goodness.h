@@ -44,7 +44,7 @@ private:
 /// Counts of samples that fall into cells, against the counts expected.
 class CellTest {
 public:
-    /// @param probabilities  of the cells; they sum to 1.
+    /// @param probabilities  of the cells, at least two; they sum to 1.
     /// @param significance   of this one test.
     CellTest(std::vector<double> probabilities, double significance)
         : probabilities_(std::move(probabilities)), significance_(significance), counts_(probabilities_.size(), 0.0) {}
@@ -64,23 +64,40 @@ public:
         ++samples_;
     }
 
-    ChiSquare result() const {
-        std::vector<double> expected;
-        for (const double p : probabilities_) expected.push_back(p * double(samples_));
-        return chiSquareTest(counts_, expected);
-    }
+    ChiSquare result() const { return test(counts_); }
 
+    /// Also that a distortion of little more than kDistortion would have been found.
     void expectFit(const std::string& what) const {
         const ChiSquare test = result();
         EXPECT_GT(test.pValue, significance_)
             << what << ": chi-square " << test.statistic << " of " << test.degreesOfFreedom << '\n'
             << test.table;
+        EXPECT_LT(this->test(rippled(1.2 * kDistortion)).pValue, significance_) << what << ": too few samples";
     }
 
     /// For seeded defects.
     void expectMisfit(const std::string& what) const { EXPECT_LT(result().pValue, significance_) << what; }
 
 private:
+    ChiSquare test(const std::vector<double>& counts) const {
+        std::vector<double> expected;
+        for (const double p : probabilities_) expected.push_back(p * double(samples_));
+        return chiSquareTest(counts, expected);
+    }
+
+    /// The defect seeded into every test of a sampler: the counts of one whose density is higher and lower in turn, by
+    /// `ripple` of the probability in the root mean square. At kDistortion itself one in a hundred would pass.
+    std::vector<double> rippled(double ripple) const {
+        double mean = 0;
+        for (std::size_t i = 0; i < counts_.size(); ++i) mean += i % 2 == 0 ? probabilities_[i] : -probabilities_[i];
+        std::vector<double> counts = counts_;
+        for (std::size_t i = 0; i < counts_.size(); ++i) {
+            const double change = ((i % 2 == 0 ? 1 : -1) - mean) / std::sqrt(1 - mean * mean);
+            counts[i] = std::max(0.0, counts[i] + ripple * probabilities_[i] * change * double(samples_));
+        }
+        return counts;
+    }
+
     std::vector<double> probabilities_;
     double significance_;
     std::vector<double> counts_;

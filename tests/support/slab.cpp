@@ -79,6 +79,11 @@ std::string SlabRow::name() const {
     return fmt::format("tau {} albedo {} g {}{}", tau, albedo, g, second);
 }
 
+double SlabRow::exact(double mu, bool litFromAbove) const {
+    if (mu == 1) return litFromAbove ? reflected1 : transmitted1;
+    return litFromAbove ? reflected05 : transmitted05;
+}
+
 std::vector<SlabRow> readSlabRows(const std::filesystem::path& table) {
     std::ifstream file(table);
     std::string line;
@@ -136,6 +141,11 @@ void SlabScores::add(const PixelEstimate& found, double exact, const std::string
     EXPECT_LE(std::abs(z), threshold_) << what;
     weightedBias_ += (found.mean / exact - 1) / (relativeError * relativeError);
     weight_ += 1 / (relativeError * relativeError);
+}
+
+void SlabScores::pool(const SlabScores& other) {
+    weightedBias_ += other.weightedBias_;
+    weight_ += other.weight_;
 }
 
 void SlabScores::expectNoCommonBias(double resolution, const std::string& what) const {

@@ -17,6 +17,8 @@ struct SlabRow {
     double reflected05 = 0, transmitted05 = 0;
 
     std::string name() const;
+    /// What is reflected if lit from above, else transmitted; mu is 1 or 0.5.
+    double exact(double mu, bool litFromAbove) const;
 };
 
 /// Every row, in the table's order.
@@ -46,6 +48,8 @@ public:
     explicit SlabScores(std::size_t tests);
     /// `exact` is known to 1e-6 (the table's 6 trusted decimals, the film's 0.1 degrees).
     void add(const PixelEstimate& found, double exact, const std::string& what);
+    /// Takes the estimates of other scores for the common bias; they have been tested one by one.
+    void pool(const SlabScores& other);
     /// Fails when the common bias is significant (1e-6), and when one of `resolution` would not have been found with
     /// 99 % power. Prints both.
     void expectNoCommonBias(double resolution, const std::string& what) const;

@@ -155,22 +155,58 @@ TEST(DensityStorage, DenselyFilledOrSmallGridsStayDense) {
     const DensityPlan plan = planDensityStorage(grids);
     EXPECT_FALSE(plan.bricked);
     EXPECT_EQ(plan.voxels, 64u * 64 * 64 + 512u * 256 * 256);
-    const DensityGrid huge({1024, 1024, 257});  // a little over 1 GiB dense
-    const DensityGrid* one[] = {&huge};
-    EXPECT_TRUE(planDensityStorage(one).bricked);
+    // 2^27 voxels fit, one more makes bricks of all.
+    const DensityGrid eighth({256, 256, 256});
+    std::vector<const DensityGrid*> many(8, &eighth);
+    EXPECT_FALSE(planDensityStorage(many).bricked);
+    const DensityGrid one({1, 1, 1});
+    many.push_back(&one);
+    EXPECT_TRUE(planDensityStorage(many).bricked);
 }
 
 TEST(CompiledMedia, LimitsAreStated) {
     std::vector<MediumDescription> many(shared::kMaxMedia + 1, medium("m"));
     EXPECT_TRUE(contains(inputErrorOf(sceneWith(many)), "at most 16 media; got 17"));
+}
+
+TEST(CompiledMedia, GridsBeyondTheLimitsAreBlamedWhereTheyAreRead) {
+    MediumDescription small = gridMedium("small", counting({2, 2, 2})),
+                      large = gridMedium("large", counting({8, 8, 8}));
+    small.density->where = {"scene.xml", 3, 1};
+    large.density->where = {"scene.xml", 9, 5};
     CompileOptions options;
     options.memoryLimitBytes = 1000;
-    try {
-        compileScene(sceneWith({gridMedium("m", counting({8, 8, 8}))}), options);
-        FAIL() << "2052 bytes in 1000";
-    } catch (const RuntimeFailure& failure) {
-        EXPECT_TRUE(contains(failure.what(), "2052") && contains(failure.what(), "1000")) << failure.what();
-    }
+    const std::string error = inputErrorOf(sceneWith({small, large}), options);
+    EXPECT_EQ(error.rfind("scene.xml:9:5: medium \"large\": density of 8 x 8 x 8 voxels", 0), 0u) << error;
+    EXPECT_TRUE(contains(error, "need 2088 bytes of memory; allowed are 1000")) << error;  // 520 voxels and 2 majorants
+    EXPECT_TRUE(contains(error, "half as many voxels along each axis"));
+    // A slice of voxels more than a texel buffer holds; as bricks of zeros it takes 1 MiB here.
+    MediumDescription cloud = medium("m");
+    cloud.albedoGrid = GridPlacement{};
+    cloud.albedoGrid->where = {"scene.xml", 4, 2};
+    cloud.albedoGrid->volume.density = DensityGrid({513, 512, 512});
+    const std::string beyond = inputErrorOf(sceneWith({cloud}));
+    EXPECT_EQ(beyond.rfind("scene.xml:4:2: ", 0), 0u) << beyond;
+    EXPECT_TRUE(contains(beyond, "need 134479872 voxels of albedo; allowed are 134217728")) << beyond;
+}
+
+TEST(CompiledMedia, PositionsCoarserThanTheMeanFreePathAreNoted) {
+    // The camera is 10 away: the cube's far face has coordinate 11, where neighbours may be 11 * 2^-23 apart.
+    const double spacing = 11 * 0x1p-23;
+    const auto notesOf = [](double sigma, double density, double z = 0) {
+        MediumDescription fog = gridMedium("fog", DensityGrid::fromDense({1, 1, 1}, std::vector{float(density)}));
+        fog.sigmaT = glm::dvec3(sigma);
+        SceneDescription description = sceneWith({fog});
+        description.shapes[0].toWorld = translation({0, 0, z}) * scaling({1, 1, 1});
+        return compileScene(description).notes;
+    };
+    EXPECT_TRUE(notesOf(0.99 / (8 * spacing), 1).empty());
+    EXPECT_TRUE(notesOf(1.98 / (8 * spacing), 0.5).empty()) << "the density counts";
+    const std::vector<std::string> notes = notesOf(1.01 / (8 * spacing), 1);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(contains(notes[0], "medium \"fog\" in cube \"box\": its mean free path, 1.04e-05")) << notes[0];
+    EXPECT_FALSE(notesOf(0.99 / (8 * spacing), 1, 1).empty()) << "so does the distance";
+    EXPECT_TRUE(notesOf(1.01 / (8 * spacing), 1, -1).empty());
 }
 
 TEST(CompiledMedia, SingularPlacementsAndOverflowAreRefused) {

@@ -109,5 +109,20 @@ TEST(NoriPhase, HasOneOrTwoLobes) {
     EXPECT_EQ(dual.lobeWeight, 0.7);
 }
 
+TEST(NoriMedium, NamesAGridOnlyWhereTheFileHasNames) {
+    const std::string medium = "<mesh type=\"cube\"><medium type=\"heterogeneous\">" + kCoefficients +
+                               R"(<string name="filename" value="x.vol"/>
+<string name="gridName" value="smoke"/></medium></mesh>)";
+    const TemporaryFolder folder;
+    folder.write("x.vol", "VOL\x03 and nothing more");
+    try {
+        readScene(folder.write("scene.xml", noriSceneOf(medium)));
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.where().line, 3) << error.what();
+        EXPECT_NE(std::string(error.what()).find("got \"smoke\""), std::string::npos) << error.what();
+    }
+}
+
 }  // namespace
 }  // namespace parhelion::test

@@ -90,5 +90,21 @@ TEST_F(SceneGrid, OfExtinctionMustHaveOneChannel) {
     }
 }
 
+TEST_F(SceneGrid, IsPickedByNameOnlyWhereFilesHaveNames) {
+    const auto named = [](const std::string& file, const std::string& name) {
+        return "<volume name=\"sigma_t\" type=\"gridvolume\">\n<string name=\"filename\" value=\"" + file +
+               "\"/>\n<string name=\"grid_name\" value=\"" + name + "\"/></volume>";
+    };
+    for (const std::string file : {"d.vol", "d.grid", "d.vdb", "d.nvdb"}) writeGrid(file, 0.5f, 1.0f);
+    for (const std::string file : {"d.vdb", "d.nvdb"}) EXPECT_NO_THROW(read(named(file, "density"))) << file;
+    for (const std::string file : {"d.vol", "d.grid"}) try {
+            read(named(file, "smoke"));
+            FAIL() << "accepted: " << file;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.where().line, 5) << error.what();
+            EXPECT_NE(std::string(error.what()).find("got \"smoke\""), std::string::npos) << error.what();
+        }
+}
+
 }  // namespace
 }  // namespace parhelion::test

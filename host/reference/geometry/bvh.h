@@ -30,6 +30,11 @@ BoundsRay<Real> prepareBoundsRay(const Vec3<Real>& origin, const Vec3<Real>& dir
 template <typename Real>
 inline constexpr Real kBoundsMargin = 1 + 8 * std::numeric_limits<Real>::epsilon();
 
+/// What the distances a hit must lie between are widened by where they prune bounds: distances to triangles round in
+/// proportion to the triangle's width.
+template <typename Real>
+inline constexpr Real kDistanceMargin = Real(0.001);
+
 /// Distance at which the ray enters the bounds, or infinity when it misses [tMin, tMax] of them.
 /// No triangle within is missed.
 template <typename Real>
@@ -67,17 +72,19 @@ void traverse(const SceneView<Real>& scene, const Vec3<Real>& origin, const Vec3
     const BoundsRay<Real> boundsRay = prepareBoundsRay(origin, direction);
     std::array<Pending, shared::kBvhStackSize> stack;
     std::size_t depth = 0;
-    stack[depth++] = {0, tMin};
+    const Real tLow = tMin * (1 - kDistanceMargin<Real>);
+    stack[depth++] = {0, tLow};
     while (depth > 0) {
         const Pending next = stack[--depth];
-        if (next.enter > limit() * kBoundsMargin<Real>) continue;
+        const Real tMax = limit() * (1 + kDistanceMargin<Real>);
+        if (next.enter > tMax * kBoundsMargin<Real>) continue;
         if (next.node < 0) {
             hitLeaf(scene, triangleRay, next.node, accept);
             continue;
         }
         const glm::vec4* texels = &scene.source.bvhNodes[std::size_t(next.node) * shared::kBvhNodeTexels];
-        Pending near{glm::floatBitsToInt(texels[0].w), boxEntry(texels[0], texels[1], boundsRay, tMin, limit())};
-        Pending far{glm::floatBitsToInt(texels[2].w), boxEntry(texels[2], texels[3], boundsRay, tMin, limit())};
+        Pending near{glm::floatBitsToInt(texels[0].w), boxEntry(texels[0], texels[1], boundsRay, tLow, tMax)};
+        Pending far{glm::floatBitsToInt(texels[2].w), boxEntry(texels[2], texels[3], boundsRay, tLow, tMax)};
         if (far.enter < near.enter) std::swap(near, far);
         assert(depth + 2 <= stack.size());
         if (far.enter < kInfinity<Real>) stack[depth++] = far;

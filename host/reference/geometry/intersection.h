@@ -90,6 +90,15 @@ Hit<Real> closestHit(const SceneView<Real>& scene, const Ray<Real>& ray) {
     return nearest;
 }
 
+/// A surface may lie in the boundary of a mesh, or within rounding of it: a ray from the surface can then start beyond
+/// the boundary. It has entered the mesh if what it meets first is the mesh's boundary from within.
+template <typename Real>
+void noticeEntry(const SceneView<Real>& scene, const Hit<Real>& hit, Ray<Real>& ray) {
+    if (!hit.found() || !hit.isNull || hit.primitive < scene.firstTriangle) return;
+    if (ray.last == kNone || ray.tMin > 0 || surrounds(scene, hit.shape, ray.inside)) return;
+    if (glm::dot(ray.direction, flatNormal(scene, hit.primitive)) > 0) ray.inside = hit.shape;
+}
+
 /// Takes the ray across the null boundary it has hit.
 ///
 /// @return false when the ray no longer gets anywhere: it alternates between null shapes that overlap.

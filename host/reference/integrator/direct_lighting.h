@@ -69,6 +69,7 @@ Vec3<Real> estimateTransmittance(const PathContext<Real, Trace>& path, Ray<Real>
             ray.inside = kNone;
             continue;
         }
+        noticeEntry(path.scene, hit, ray);
         const Medium<Real>* medium = path.scene.interiorOf(ray.inside);
         if (medium && !trackShadow(path, *medium, ray, tEnd, vertex, threshold, residual, weight)) return Vec3<Real>(0);
         if (!hit.found()) return weight;

@@ -19,6 +19,7 @@ FlightEnd<Real> fly(const PathContext<Real, Trace>& path, PathState<Real>& state
             ray.inside = kNone;
             continue;
         }
+        noticeEntry(path.scene, hit, ray);
         if (const Medium<Real>* medium = path.scene.interiorOf(ray.inside)) {
             const auto t = trackFlight(path, *medium, ray, hit.t, state.scatterings, state.residual, state.throughput);
             if (t) return {Kind::Medium, hit, medium, *t};
