@@ -4,7 +4,8 @@
 Each image is the mean of K renders with independent seeds. The channels R, G, B hold the mean and
 variance.R, variance.G, variance.B the variance of that mean, estimated over the K renders: a
 comparison has K - 1 degrees of freedom. The header keeps `seeds` (K) and `samplesPerPixel` (over all
-seeds), and what rendered it. A later run adds seeds to what is there.
+seeds), and what rendered it. Some scenes have their number of seeds fixed; for the others a later run adds seeds to
+what is there.
 
 Needs `pip install mitsuba` and a libLLVM (Debian: libllvm19) named by DRJIT_LIBLLVM_PATH.
 
@@ -24,14 +25,20 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 REFERENCES = ROOT / "tests" / "references"
 BENCHMARK = ROOT.parent / "shared" / "benchmark"
 
-# Samples per pixel of one seed: its wavefront, size^2 * spp paths, has to fit in memory.
+SCENES_FOLDER = ROOT / "scenes"
+
+# Samples per pixel of one seed: its wavefront, size^2 * spp paths, has to fit in memory. Then the number of seeds,
+# where it is fixed beforehand; else they are added until the image mean is known to TARGET_ERROR.
 SCENES = {
     "wdas_sun_sky": (BENCHMARK / "wdas_sun_sky.xml", 64),
     "cornell_cloud": (BENCHMARK / "cornell_cloud.xml", 64),
     "fog_small_light": (BENCHMARK / "fog_small_light.xml", 256),
+    "hdr_sky_only": (BENCHMARK / "hdr_sky_only.xml", 1024, 32),
+    "bunny_hdr_sky": (BENCHMARK / "bunny_hdr_sky.xml", 512, 32),
     "furnace": (BENCHMARK / "furnace.xml", 64),
     "hetero_sigmat": (REFERENCES / "hetero_sigmat.xml", 64),
     "homo_null": (REFERENCES / "homo_null.xml", 64),
+    "cornell_hg_cloud": (SCENES_FOLDER / "cornell_cloud.xml", 64, 40),
 }
 TARGET_ERROR = 5e-4  # standard error of the image mean, relative
 MINIMUM_SEEDS = 32
@@ -74,12 +81,19 @@ def read(mi, file, size, spp):
     return Moments(count, data[:, :, :3], data[:, :, 3:] * count * (count - 1))
 
 
-def render(mi, file, size, spp, minutes, moments):
-    """Adds seeds until the image mean is known to TARGET_ERROR or the time is over."""
+def render(mi, file, size, spp, wanted, minutes, moments):
+    """Adds seeds up to the `wanted` number, or, without one, until the image mean is known to TARGET_ERROR or the time
+    is over."""
     scene = mi.load_file(str(file), size=size, spp=spp)
     end = time.monotonic() + 60 * minutes
-    while moments.count < MINIMUM_SEEDS or (
-            time.monotonic() < end and (moments.image_error() > TARGET_ERROR * moments.image_mean()).any()):
+
+    def done():
+        if wanted:
+            return moments.count >= wanted
+        return moments.count >= MINIMUM_SEEDS and (
+            time.monotonic() >= end or (moments.image_error() <= TARGET_ERROR * moments.image_mean()).all())
+
+    while not done():
         image = np.array(mi.render(scene, spp=spp, seed=1 + moments.count), dtype=np.float64)
         moments.add(image[:, :, :3])
 
@@ -105,7 +119,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="of " + ", ".join(SCENES))
     parser.add_argument("--size", type=int, default=64, help="width and height in pixels")
-    parser.add_argument("--minutes", type=float, default=3.0, help="time after which a scene takes no more seeds")
+    parser.add_argument("--minutes", type=float, default=3.0,
+                        help="time after which a scene takes no more seeds, unless their number is fixed")
     parser.add_argument("--fresh", action="store_true", help="start anew instead of adding seeds to what is there")
     parser.add_argument("--variant", default="llvm_ad_rgb")
     arguments = parser.parse_args()
@@ -118,13 +133,13 @@ def main():
 
     mi.set_variant(arguments.variant)
     for name in arguments.scenes or SCENES:
-        file, spp = SCENES[name]
+        file, spp, *wanted = SCENES[name]
         if not file.exists():
             sys.exit(f"{file}: missing")
         start = time.monotonic()
         output = REFERENCES / f"{name}.exr"
         moments = Moments() if arguments.fresh else read(mi, output, arguments.size, spp)
-        render(mi, file, arguments.size, spp, arguments.minutes, moments)
+        render(mi, file, arguments.size, spp, wanted[0] if wanted else None, arguments.minutes, moments)
         write(mi, moments, spp, output)
         means = zip(moments.image_mean(), moments.image_error())
         print(f"{name}: {moments.count} seeds of {spp} spp, {time.monotonic() - start:.0f} s; image mean",
