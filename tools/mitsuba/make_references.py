@@ -18,6 +18,7 @@ import os
 import pathlib
 import sys
 import time
+import typing
 
 import numpy as np
 
@@ -26,19 +27,33 @@ REFERENCES = ROOT / "tests" / "references"
 BENCHMARK = ROOT.parent / "shared" / "benchmark"
 
 SCENES_FOLDER = ROOT / "scenes"
+MAPS = ROOT.parent / "shared" / "data" / "environments"
 
-# Samples per pixel of one seed: its wavefront, size^2 * spp paths, has to fit in memory. Then the number of seeds,
-# where it is fixed beforehand; else they are added until the image mean is known to TARGET_ERROR.
+
+class Scene(typing.NamedTuple):
+    file: pathlib.Path
+    samples: int  # per pixel of one seed: its wavefront, size^2 * samples paths, has to fit in memory
+    seeds: int = 0  # fixed beforehand; 0: added until the image mean is known to TARGET_ERROR
+    parameters: dict = {}
+    sampler: str = "independent"
+
+
 SCENES = {
-    "wdas_sun_sky": (BENCHMARK / "wdas_sun_sky.xml", 64),
-    "cornell_cloud": (BENCHMARK / "cornell_cloud.xml", 64),
-    "fog_small_light": (BENCHMARK / "fog_small_light.xml", 256),
-    "hdr_sky_only": (BENCHMARK / "hdr_sky_only.xml", 1024, 32),
-    "bunny_hdr_sky": (BENCHMARK / "bunny_hdr_sky.xml", 512, 32),
-    "furnace": (BENCHMARK / "furnace.xml", 64),
-    "hetero_sigmat": (REFERENCES / "hetero_sigmat.xml", 64),
-    "homo_null": (REFERENCES / "homo_null.xml", 64),
-    "cornell_hg_cloud": (SCENES_FOLDER / "cornell_cloud.xml", 64, 40),
+    "wdas_sun_sky": Scene(BENCHMARK / "wdas_sun_sky.xml", 64),
+    "cornell_cloud": Scene(BENCHMARK / "cornell_cloud.xml", 64),
+    "fog_small_light": Scene(BENCHMARK / "fog_small_light.xml", 256),
+    "hdr_sky_only": Scene(BENCHMARK / "hdr_sky_only.xml", 1024, 32),
+    "bunny_hdr_sky": Scene(BENCHMARK / "bunny_hdr_sky.xml", 512, 32),
+    "furnace": Scene(BENCHMARK / "furnace.xml", 64),
+    "hetero_sigmat": Scene(REFERENCES / "hetero_sigmat.xml", 64),
+    "homo_null": Scene(REFERENCES / "homo_null.xml", 64),
+    "cornell_hg_cloud": Scene(SCENES_FOLDER / "cornell_cloud.xml", 64, 40),
+    # Independent samples would take a day for the edges of the squares.
+    "checkerboard": Scene(SCENES_FOLDER / "checkerboard.xml", 1024, 32, sampler="multijitter"),
+    "empty_environment": Scene(SCENES_FOLDER / "empty_environment.xml", 1024, 32),
+    "empty_noon_grass": Scene(SCENES_FOLDER / "empty_environment.xml", 1024, 32,
+                              {"map": str(MAPS / "noon_grass_1k.hdr")}),
+    "mesh_under_sky": Scene(SCENES_FOLDER / "mesh_under_sky.xml", 512, 32),
 }
 TARGET_ERROR = 5e-4  # standard error of the image mean, relative
 MINIMUM_SEEDS = 32
@@ -81,10 +96,17 @@ def read(mi, file, size, spp):
     return Moments(count, data[:, :, :3], data[:, :, 3:] * count * (count - 1))
 
 
-def render(mi, file, size, spp, wanted, minutes, moments):
+def load(mi, scene, size):
+    """The scene with its sampler replaced; files are found beside it."""
+    mi.file_resolver().prepend(str(scene.file.parent))
+    text = scene.file.read_text().replace('<sampler type="independent">', f'<sampler type="{scene.sampler}">')
+    return mi.load_string(text, size=size, spp=scene.samples, **scene.parameters)
+
+
+def render(mi, description, size, minutes, moments):
     """Adds seeds up to the `wanted` number, or, without one, until the image mean is known to TARGET_ERROR or the time
     is over."""
-    scene = mi.load_file(str(file), size=size, spp=spp)
+    scene, spp, wanted = load(mi, description, size), description.samples, description.seeds
     end = time.monotonic() + 60 * minutes
 
     def done():
@@ -133,13 +155,14 @@ def main():
 
     mi.set_variant(arguments.variant)
     for name in arguments.scenes or SCENES:
-        file, spp, *wanted = SCENES[name]
-        if not file.exists():
-            sys.exit(f"{file}: missing")
+        scene = SCENES[name]
+        spp = scene.samples
+        if not scene.file.exists():
+            sys.exit(f"{scene.file}: missing")
         start = time.monotonic()
         output = REFERENCES / f"{name}.exr"
         moments = Moments() if arguments.fresh else read(mi, output, arguments.size, spp)
-        render(mi, file, arguments.size, spp, wanted[0] if wanted else None, arguments.minutes, moments)
+        render(mi, scene, arguments.size, arguments.minutes, moments)
         write(mi, moments, spp, output)
         means = zip(moments.image_mean(), moments.image_error())
         print(f"{name}: {moments.count} seeds of {spp} spp, {time.monotonic() - start:.0f} s; image mean",

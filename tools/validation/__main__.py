@@ -48,8 +48,7 @@ def parse(arguments):
 
 def test_programs():
     """Those of the test programs that cases run and that exist."""
-    programs = sorted({case.program for case in CASES if isinstance(case, TestCase)})
-    return [name for name in programs if any((ROOT / "tests").glob(f"*/{name}.cpp"))]
+    return sorted({case.program for case in CASES if isinstance(case, TestCase) and case.source()})
 
 
 def estimate(seconds):

@@ -28,10 +28,10 @@ class Criterion:
     needs_samples: bool = True
 
 
-def at_most(mse=None, mae=None, largest=None):
+def at_most(mse=None, mae=None, largest=None, needs_samples=True):
     """Limits of errors."""
     limits = (("MSE", "--max-mse", mse), ("MAE", "--max-mae", mae), ("max", "--max-error", largest))
-    return tuple(Criterion(f"{name} ≤ {value:g}", (option, f"{value:g}"))
+    return tuple(Criterion(f"{name} ≤ {value:g}", (option, f"{value:g}"), needs_samples)
                  for name, option, value in limits if value is not None)
 
 
@@ -81,6 +81,11 @@ class TestCase:
     filter: str
     baseline: str
     seconds: float
+
+    def source(self):
+        """The test's file, or nothing."""
+        files = (ROOT / "tests").glob(f"*/{self.program}.cpp")
+        return next((file for file in files if self.filter.strip("*") in file.read_text()), None)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -2,11 +2,12 @@
 
 import dataclasses
 import math
+import os
 import pathlib
 import time
 from typing import Optional
 
-from cases import ImageCase, SweepCase, TestCase
+from cases import ROOT, ImageCase, SweepCase, TestCase
 from program import Failure, Program
 
 
@@ -62,12 +63,18 @@ def agreement_checks(figures):
     return [Check(name, family_text(figures[key]), figures[key]["passed"]) for key, name in names if figures[key]]
 
 
+def percent(share):
+    """Signed, with three decimals; what rounds to nothing has no sign."""
+    text = f"{100 * share:+.3f}"
+    return text[1:] if float(text) == 0 else text.replace("-", "−")
+
+
 def mean_text(figures):
     intervals = [c["ratioConfidence"] or [c["ratio"], c["ratio"]] for c in figures["channels"] if c["ratio"]]
     if not intervals:
         return "–"
     low, high = min(i[0] for i in intervals), max(i[1] for i in intervals)
-    return f"{100 * (low - 1):+.3f} … {100 * (high - 1):+.3f} %"
+    return f"{percent(low - 1)} … {percent(high - 1)} %"
 
 
 def noise_text(figures):
@@ -99,6 +106,11 @@ def checks_of(criteria, figures):
     return checks
 
 
+def named(file):
+    """Relative to the project, whose neighbour the shared data is."""
+    return os.path.relpath(file, ROOT)
+
+
 def missing_file(case, settings):
     for file in case.needs():
         if not file.exists() and not (settings.reference and file == case.reference):
@@ -128,7 +140,7 @@ def run_image(case: ImageCase, settings: Settings):
     result = Result(case)
     missing = missing_file(case, settings)
     if missing:
-        result.status, result.reason = "skipped", f"{missing} is missing"
+        result.status, result.reason = "skipped", f"{named(missing)} is missing"
         return result
     reference = prepare_reference(case, settings)
     samples = max(2, round(case.samples * settings.sample_scale))
@@ -152,6 +164,9 @@ def run_image(case: ImageCase, settings: Settings):
 
 def run_test(case: TestCase, settings: Settings):
     result = Result(case)
+    if not case.source():
+        result.status, result.reason = "skipped", f"the tests have no {case.filter.strip('*')}"
+        return result
     passed, result.lines, command = settings.program.run_test(case.program, case.filter)
     result.commands.append(command)
     result.checks = [Check("every assertion holds", "", passed)]

@@ -53,11 +53,11 @@ BASELINE_IMAGES = (
 
 BASELINE_TESTS = (
     TestCase("chi-square-phase", "Chi-square: dual Henyey-Greenstein", "Sampled directions in 200 bins of (cos θ, φ).",
-             "baseline_chi_square_test", "*BaselineDualHenyeyGreenstein*", "200 000 samples, p = 0.645", 10),
+             "phase_functions_test", "*BaselineDualHenyeyGreenstein*", "200 000 samples, p = 0.645", 10),
     TestCase("chi-square-first-event", "Chi-square: first event", "Distances through density 0.25, then 0.75; "
-             "P(escape) = exp(-1/2).", "baseline_chi_square_test", "*BaselineFirstEvent*",
+             "P(escape) = exp(-1/2).", "free_flight_test", "*BaselineFirstEvent*",
              "200 000 samples, p = 0.445", 10),
-    TestCase("chi-square-scatter", "Chi-square: scatter or absorb", "Expected 0.75 : 0.25.", "baseline_chi_square_test",
+    TestCase("chi-square-scatter", "Chi-square: scatter or absorb", "Expected 0.75 : 0.25.", "scatter_or_absorb_test",
              "*BaselineScatterOrAbsorb*", "79 116 events, p = 0.799", 10),
 )
 
@@ -75,7 +75,7 @@ FURTHER = (
     ImageCase(
         "furnace-exact", "White furnace, no light sampling", "The same, by scattering alone: no noise, so that "
         "rounding shows.",
-        SCENES / "white_furnace.xml", exact.constant(1.0), 16, at_most(largest=2e-6), 3, noisy=False),
+        SCENES / "white_furnace.xml", exact.constant(1.0), 16, at_most(largest=2e-6, needs_samples=False), 3, noisy=False),
     ImageCase(
         "mitsuba-hetero-sigmat", "Mitsuba's test scene hetero_sigmat", "A grid of extinction per colour channel, in "
         "constant light.",

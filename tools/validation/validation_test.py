@@ -43,7 +43,7 @@ class Validation(unittest.TestCase):
         # 2 %: the mean of 64 * 64 pixels with 13 samples of deviation 0.4 is known to 0.17 %.
         output = self.assert_result(self.validate("--only", "furnace", "--reference", self.flat(1.02)), 1)
         self.assertIn("FAILED", output)
-        self.assertIn("1 failed", output)
+        self.assertIn("1 FAILED", output)
 
     def test_a_picture_of_another_size_is_an_error(self):
         exr.write(self.folder / "small.exr", 8, 8, lambda x, y: (1, 1, 1))
