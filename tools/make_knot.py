@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tools/make_knot.py FILE.obj: writes the mesh of scenes/mesh_under_sky.xml.
+"""tools/make_knot.py FILE.obj: writes the mesh of tests/references/mesh_under_sky.xml.
 
 A trefoil knot of a tube with a wavy section, which shades and lights itself. It stands in the box of the Stanford bunny
 as that is usually published, so that either fits the scene. The same file every time.

@@ -53,7 +53,7 @@ SCENES = {
     "empty_environment": Scene(SCENES_FOLDER / "empty_environment.xml", 1024, 32),
     "empty_noon_grass": Scene(SCENES_FOLDER / "empty_environment.xml", 1024, 32,
                               {"map": str(MAPS / "noon_grass_1k.hdr")}),
-    "mesh_under_sky": Scene(SCENES_FOLDER / "mesh_under_sky.xml", 512, 32),
+    "mesh_under_sky": Scene(REFERENCES / "mesh_under_sky.xml", 512, 32),
 }
 TARGET_ERROR = 5e-4  # standard error of the image mean, relative
 MINIMUM_SEEDS = 32

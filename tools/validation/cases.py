@@ -63,12 +63,13 @@ class ImageCase:
     defines: tuple = ()
     options: tuple = ("--sampler", "independent")  # of which the variance layer is unbiased
     baseline: Optional[Figures] = None
+    files: tuple = ()  # that the scene needs besides itself
     noisy: bool = True  # false: the variance layer says nothing about the error
 
     def needs(self):
         """Files without which the case cannot run."""
-        files = [pathlib.Path(value) for _, value in self.defines if value.startswith("/")] + [self.scene]
-        return files + ([self.reference] if isinstance(self.reference, pathlib.Path) else [])
+        given = [pathlib.Path(value) for _, value in self.defines if value.startswith("/")]
+        return [self.scene, *self.files, *given] + ([self.reference] if isinstance(self.reference, pathlib.Path) else [])
 
 
 @dataclasses.dataclass(frozen=True)
