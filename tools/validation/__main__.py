@@ -59,9 +59,9 @@ def headline(result):
     """What a line on the terminal has room for."""
     if result.reason:
         return result.reason.splitlines()[0]
-    failed = "; ".join(f"{check.text}: {check.value}" for check in result.checks if not check.passed)
+    failed = [check for check in result.checks if not check.passed]
     if failed or not result.figures:
-        return failed
+        return "; ".join(f"{check.text}: {check.value}" for check in failed or result.checks)
     figures = result.figures
     errors = ", ".join(f"{name} {figures[name.lower()]:.2e}" for name in ("MSE", "MAE", "max"))
     return f"{errors}, mean {page.mean_text(figures)}"
