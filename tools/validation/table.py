@@ -46,7 +46,7 @@ BASELINE_IMAGES = (
         SCENES / "gradient_sky.xml", exact.gradient_sky, 4096, at_most(largest=2e-6) + better_than(GRADIENT)[:2], 15,
         size=128, defines=(("density", "0"),), options=("--sampler", "sobol"), baseline=GRADIENT, noisy=False),
     ImageCase(
-        "cornell-cloud", "Cloud in a Cornell box", "Henyey-Greenstein 0.6, σ_a 0.001, σ_s 10, an area light with one "
+        "cornell-cloud", "Cloud in a Cornell box", "Henyey-Greenstein 0.6, σₐ 0.001, σₛ 10, an area light with one "
         "side. Against Mitsuba.",
         SCENES / "cornell_cloud.xml", mitsuba("cornell_hg_cloud"), 2048,
         better_than(CORNELL) + NOISE_ALONE + AGREE + mean_within(0.003), 40, baseline=CORNELL),
