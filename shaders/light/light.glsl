@@ -5,6 +5,7 @@
 #include "core/frame.glsl"
 #include "core/scene.glsl"
 #include "geometry/intersection.glsl"
+#include "light/environment.glsl"
 #include "light/sky.glsl"
 #include "sampling/distribution.glsl"
 #include "sampling/warp.glsl"
@@ -96,7 +97,7 @@ LightSample sampleMeshLight(Light light, vec3 position, float selector, vec2 u, 
     return sampleArea(light, position, surface.position, surface.geometricNormal, light.area, primitive);
 }
 
-// A light seen from `position`, chosen by u.x, placed by u.yz, or by `words` (the environment draw) on a sky.
+// A light seen from `position`, chosen by u.x, placed by u.yz, or by `words` (the environment draw) on a map or sky.
 LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
     uint index = selectLight(u.x);
     tests += hasManyLights ? 9u : 0u;
@@ -125,6 +126,12 @@ LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
     if (hasEnvironmentSampling && light.type == kLightEnvironment) {
         float pdf = kInvFourPi * light.selection;
         result = LightSample(uniformSphere(u.yz), kInfinity, light.emission / pdf, pdf, kNone);
+    }
+    if (hasEnvironmentMap && light.type == kLightEnvironmentMap) {
+        vec4 point = sampleEnvironment(words);
+        float pdf = point.w * light.selection;
+        vec3 radiance = environmentAt(point.xyz).rgb;
+        result = LightSample(point.xyz, kInfinity, radiance * safeDivide(1.0, pdf), pdf, kNone);
     }
     if (hasSky && light.type == kLightSky) {
         SkyPoint point = sampleSky(words);

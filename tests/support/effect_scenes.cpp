@@ -41,6 +41,12 @@ std::string gradientSky(const std::string& stars) {
     <rgb name="bottom" value="0.7, 0.5, 0.3"/><rgb name="top" value="0.2, 0.4, 0.9"/>)" +
            stars + "</emitter>";
 }
+std::string environmentMap() {
+    return "<emitter type=\"envmap\"><string name=\"filename\" value=\"" +
+           (sceneFolder() / "environments/afternoon.hdr").string() +
+           "\"/><transform name=\"to_world\"><rotate x=\"1\" z=\"0.4\" angle=\"70\"/></transform></emitter>";
+}
+
 /// Faces up, away from the floor.
 const std::string kTwoSidedQuad = R"(<shape type="rectangle">
     <transform name="to_world"><scale value="0.5"/><rotate x="1" angle="-80"/><translate x="0.3" y="1.7"/></transform>
@@ -191,6 +197,9 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
         {"empty sky", compiled(kSky)},
         {"gradient sky, fog", compiled(kFloor + gradientSky("") + greyBox)},
         {"starry sky, cloud, sun", compiled(kFloor + gradientSky(kStars) + kSun + isotropicCloud)},
+        {"environment map, fog", compiled(kFloor + environmentMap() + greyBox)},
+        {"environment map, cloud, lamp", compiled(kFloor + environmentMap() + kQuadLight + isotropicCloud)},
+        {"empty environment map", compiled(environmentMap())},
         {"two-sided lights, fog",
          compiled(kFloor + kTwoSidedQuad + kSphereLight + greyBox + ball(folder, true, smallBall, kTwoSidedMesh))},
     };

@@ -4,6 +4,7 @@
 
 #include "reference/core/frame.h"
 #include "reference/geometry/intersection.h"
+#include "reference/light/environment.h"
 #include "reference/light/sky.h"
 #include "reference/sampling/distribution.h"
 #include "reference/sampling/warp.h"
@@ -105,7 +106,7 @@ std::optional<LightSample<Real>> sampleDeltaLight(const Light<Real>& light, cons
 /// Chooses one light and a point of it.
 ///
 /// @param u      which light; the light point.
-/// @param words  the environment draw: the point of a sky; others do without.
+/// @param words  the environment draw: the point of a map or a sky; others do without.
 /// @return nothing when no light is sampled, or the one chosen sends nothing this way.
 template <typename Real>
 std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const Vec3<Real>& position,
@@ -132,6 +133,13 @@ std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const
             const Real pdf = light.selection / (4 * kPi<Real>);
             return LightSample<Real>{uniformSphere(uv), kInfinity<Real>, kNone, light.emission / pdf, pdf, false};
         }
+        case shared::kLightEnvironmentMap: {
+            const EnvironmentSample<Real> point = sampleEnvironment(scene, words);
+            const Real pdf = light.selection * point.pdf;
+            if (pdf == 0) return std::nullopt;
+            const Vec3<Real> radiance = environmentAt(scene, point.direction).radiance;
+            return LightSample<Real>{point.direction, kInfinity<Real>, kNone, radiance / pdf, pdf, false};
+        }
         case shared::kLightSky: {
             const SkyPoint<Real> point = sampleSky(scene, words);
             const Real pdf = light.selection * skyPdf(scene, point);
@@ -151,6 +159,7 @@ Real lightPdf(const SceneView<Real>& scene, const Light<Real>& light, const Vec3
               const Vec3<Real>& direction, Real distance, const Vec3<Real>& normal) {
     if (light.selection == 0) return 0;
     if (light.type == shared::kLightEnvironment) return light.selection / (4 * kPi<Real>);
+    if (light.type == shared::kLightEnvironmentMap) return light.selection * environmentAt(scene, direction).pdf;
     if (light.type == shared::kLightSky)
         return light.selection * skyPdf(scene, SkyPoint<Real>{direction, findStar(scene, direction)});
     if (light.type == shared::kLightSphere) {
