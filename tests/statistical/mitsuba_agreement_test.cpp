@@ -27,13 +27,15 @@ INSTANTIATE_TEST_SUITE_P(
                     MitsubaReference{"fog_small_light", "../shared/benchmark/fog_small_light.xml", 256, 0.04, false},
                     MitsubaReference{"furnace", "../shared/benchmark/furnace.xml", 16, 0.003},
                     MitsubaReference{"hetero_sigmat", "tests/references/hetero_sigmat.xml", 64, 0.003},
-                    MitsubaReference{"homo_null", "tests/references/homo_null.xml", 64, 0.003}),
+                    MitsubaReference{"homo_null", "tests/references/homo_null.xml", 64, 0.003},
+                    MitsubaReference{"hdr_sky_only", "../shared/benchmark/hdr_sky_only.xml", 64, 0.001, false},
+                    MitsubaReference{"environment_floor", "tests/references/environment_floor.xml", 256, 0.001}),
     [](const auto& info) { return info.param.name; });
 
 class MitsubaTestScene : public testing::TestWithParam<const char*> {};
 
-// Until there are environment maps: refused where the scene asks for one, not rendered without.
-TEST_P(MitsubaTestScene, IsRefusedForItsEnvironmentMap) {
+// Until there are textures: refused where the scene asks for one, not rendered without.
+TEST_P(MitsubaTestScene, IsRefusedForItsCheckerboard) {
     const auto folder = sharedFile("data/mitsuba/tests/scenes/participating_media");
     if (folder.empty()) GTEST_SKIP() << "../shared/data/mitsuba is missing";
     try {
@@ -41,7 +43,7 @@ TEST_P(MitsubaTestScene, IsRefusedForItsEnvironmentMap) {
         FAIL() << "was read";
     } catch (const InputError& error) {
         const std::string message = error.what();
-        EXPECT_NE(message.find("envmap"), std::string::npos) << message;
+        EXPECT_NE(message.find("checkerboard"), std::string::npos) << message;
         EXPECT_GT(error.where().line, 0) << message;
         EXPECT_GT(error.where().column, 0) << message;
         EXPECT_TRUE(std::filesystem::exists(error.where().file)) << message;

@@ -23,6 +23,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 REFERENCES = ROOT / "tests" / "references"
 BENCHMARK = ROOT.parent / "shared" / "benchmark"
+MITSUBA_TESTS = ROOT.parent / "shared" / "data" / "mitsuba" / "tests" / "scenes" / "participating_media"
 
 # Samples per pixel of one seed: its wavefront, size^2 * spp paths, has to fit in memory.
 SCENES = {
@@ -32,6 +33,10 @@ SCENES = {
     "furnace": (BENCHMARK / "furnace.xml", 64),
     "hetero_sigmat": (REFERENCES / "hetero_sigmat.xml", 64),
     "homo_null": (REFERENCES / "homo_null.xml", 64),
+    "hdr_sky_only": (BENCHMARK / "hdr_sky_only.xml", 64),
+    "environment_floor": (REFERENCES / "environment_floor.xml", 256),
+    "homo_null_envmap": (MITSUBA_TESTS / "test_homo_null_envmap_volpath.xml", 64),
+    "hetero_sigmat_envmap": (MITSUBA_TESTS / "test_hetero_sigmat_volpath.xml", 64),
 }
 TARGET_ERROR = 5e-4  # standard error of the image mean, relative
 MINIMUM_SEEDS = 32
@@ -76,12 +81,13 @@ def read(mi, file, size, spp):
 
 def render(mi, file, size, spp, minutes, moments):
     """Adds seeds until the image mean is known to TARGET_ERROR or the time is over."""
-    scene = mi.load_file(str(file), size=size, spp=spp)
+    size_name = "res" if MITSUBA_TESTS in file.parents else "size"
+    scene = mi.load_file(str(file), spp=spp, **{size_name: size})
     end = time.monotonic() + 60 * minutes
     while moments.count < MINIMUM_SEEDS or (
             time.monotonic() < end and (moments.image_error() > TARGET_ERROR * moments.image_mean()).any()):
         image = np.array(mi.render(scene, spp=spp, seed=1 + moments.count), dtype=np.float64)
-        moments.add(image[:, :, :3])
+        moments.add(image[:, :, :3])  # of the `moment` integrator, too: its first channels
 
 
 def origin(mi):
