@@ -5,18 +5,9 @@
 #include "core/frame.glsl"
 #include "core/scene.glsl"
 #include "geometry/intersection.glsl"
-#include "light/environment.glsl"
-#include "light/sky.glsl"
+#include "light/surrounding.glsl"
 #include "sampling/distribution.glsl"
 #include "sampling/warp.glsl"
-
-struct LightSample {
-    vec3 direction;         // unit, towards the light
-    float distance;         // to the light point; infinite for directional and environment
-    vec3 radianceOverPdf;   // 0 where the light cannot be seen
-    float pdf;              // per steradian, selection included; infinite for delta lights
-    uint target;            // primitive to ignore on the way
-};
 
 // Shader only: the reference refers to lights.
 Light lightAt(uint index) {
@@ -123,21 +114,7 @@ LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
         result = LightSample(toLight * sqrt(inverse), sqrt(square), light.emission * inverse / light.selection,
                              kInfinity, kNone);
     }
-    if (hasEnvironmentSampling && light.type == kLightEnvironment) {
-        float pdf = kInvFourPi * light.selection;
-        result = LightSample(uniformSphere(u.yz), kInfinity, light.emission / pdf, pdf, kNone);
-    }
-    if (hasEnvironmentMap && light.type == kLightEnvironmentMap) {
-        vec4 point = sampleEnvironment(words);
-        float pdf = point.w * light.selection;
-        vec3 radiance = environmentAt(point.xyz).rgb;
-        result = LightSample(point.xyz, kInfinity, radiance * safeDivide(1.0, pdf), pdf, kNone);
-    }
-    if (hasSky && light.type == kLightSky) {
-        SkyPoint point = sampleSky(words);
-        float pdf = skyPdf(point) * light.selection;
-        result = LightSample(point.direction, kInfinity, skyRadiance(point) * safeDivide(1.0, pdf), pdf, kNone);
-    }
+    if (hasEnvironmentSampling && light.type >= kLightEnvironment) result = sampleSurrounding(light, u.yz, words);
     tests += hasStars ? kMaxStarsPerCell + 1u : 0u;
     return result;
 }

@@ -1,8 +1,7 @@
 // shaders/light/environment.glsl against double precision, against the definition of the map, and against Mitsuba.
-#include "reference/light/environment.h"
-
 #include <gtest/gtest.h>
 
+#include "reference/light/surrounding.h"
 #include "support/environment_maps.h"
 #include "support/environment_table.h"
 #include "support/hand_scene.h"
@@ -18,7 +17,7 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/environment.comp";
-enum Function : std::uint32_t { kPlace, kAt, kSample };
+enum Function : std::uint32_t { kPlace, kAt, kSample, kSurrounding };
 
 constexpr glm::uvec2 kSizes[] = {{2, 3}, {1, 5}, {7, 4}, {64, 32}, {512, 300}};
 
@@ -126,6 +125,47 @@ TEST(EnvironmentParity, SamplesAgree) {
             EXPECT_TRUE(parity.near(glm::dvec3(outputs[i]), expected.direction)) << i;
             EXPECT_EQ(outputs[i].w, float(expected.pdf)) << i;
             EXPECT_GT(outputs[i].w, 0);
+        }
+    }
+}
+
+/// Constant, of a smooth map (radiance over density does not magnify the direction's rounding), of a sky.
+std::vector<HandScene> surroundings() {
+    std::vector<HandScene> scenes(3);
+    scenes[0].setEnvironment({1, 2, 3});
+    scenes[0].scene.constants.lights[0].selection = 1;
+    scenes[1].setEnvironmentMap(test::madeMap({7, 4}, 140, false));
+    SkyDescription sky;
+    sky.top = {1, 2, 3};
+    sky.bottom = {0.5, 0.5, 0.5};
+    scenes[2].setSky(sky);
+    return scenes;
+}
+
+TEST(EnvironmentParity, SamplesOfSurroundingLightsAgree) {
+    // The direction 3 * 32, its effect on a map of 7 x 4 texels of contrast 10 or so: times 7 and 10; relative.
+    Parity parity("light/surrounding", "sampleSurrounding", 3 * 32 * 70);
+    for (const HandScene& scene : surroundings()) {
+        const reference::SceneView<double> view(scene.scene);
+        std::vector<glm::vec4> inputs;
+        Stress stress(73);
+        for (int i = 0; i < 3'000; ++i) {
+            glm::uvec4 words;
+            for (int c = 0; c < 4; ++c) words[c] = stress.word();
+            words.z = words.z / 4 + 0x60000000u;  // off the borders of the sky's bands, where rounding finds the next
+            inputs.push_back(glm::uintBitsToFloat(words));
+        }
+        const auto outputs = test::SceneProbe(scene.scene).run(kShader, kSurrounding, inputs, 1, 2);
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            const glm::uvec4 words = glm::floatBitsToUint(inputs[i]);
+            const glm::dvec2 u(reference::toUniform<double>(words.x), 0.25);
+            const auto expected = reference::sampleSurrounding(view, view.lights[0], u, words);
+            ASSERT_TRUE(expected);
+            EXPECT_TRUE(parity.near(glm::dvec3(outputs[2 * i]), expected->direction)) << i;
+            EXPECT_TRUE(parity.near(outputs[2 * i].w, expected->pdf)) << i;
+            for (int c = 0; c < 3; ++c)
+                EXPECT_TRUE(parity.near(outputs[2 * i + 1][c], expected->radianceOverPdf[c])) << i;
+            EXPECT_TRUE(std::isinf(outputs[2 * i + 1].w));
         }
     }
 }

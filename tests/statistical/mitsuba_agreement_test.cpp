@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(
                     MitsubaReference{"hetero_sigmat", "tests/references/hetero_sigmat.xml", 64, 0.003},
                     MitsubaReference{"homo_null", "tests/references/homo_null.xml", 64, 0.003},
                     MitsubaReference{"hdr_sky_only", "../shared/benchmark/hdr_sky_only.xml", 64, 0.001, false},
-                    MitsubaReference{"environment_floor", "tests/references/environment_floor.xml", 256, 0.001}),
+                    MitsubaReference{"environment_floor", "tests/references/environment_floor.xml", 1024, 0.001}),
     [](const auto& info) { return info.param.name; });
 
 class MitsubaTestScene : public testing::TestWithParam<const char*> {};

@@ -132,6 +132,20 @@ std::vector<NamedScene> phaseScenes(glm::uvec2 size) {
                       ballOf("c", kPhaseTable, "y=\"0.8\"") + ballOf("d", "<phase type=\"hg\"/>", "y=\"-0.8\""))}};
 }
 
+/// What surrounds a scene.
+std::vector<NamedScene> environmentScenes(glm::uvec2 size) {
+    CompileOptions everyLight;
+    everyLight.sampleEveryLight = true;
+    const auto compiled = [size](const std::string& body) { return compileText(sceneXml(body), size); };
+    const std::string fog = homogeneous("fog", "1.5", 0.6) + around("fog", "cube");
+    return {{"sky sampled, fog", compileText(sceneXml(kSky + kSphereLight + fog), size, everyLight)},
+            {"empty sky", compiled(kSky)},
+            {"gradient sky, fog", compiled(kFloor + gradientSky("") + fog)},
+            {"environment map, fog", compiled(kFloor + environmentMap() + fog)},
+            {"environment map, lamp", compiled(kFloor + environmentMap() + kQuadLight)},
+            {"empty environment map", compiled(environmentMap())}};
+}
+
 CompiledScene makeChromatic(CompiledScene scene) {
     scene.constants.media[0].sigmaRatio = {1.0f, 0.7f, 0.45f};
     scene.effects = analyseEffects(scene);
@@ -169,8 +183,6 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
     const std::string smallFog =
         homogeneous("small", "4, 2, 1", 0) + around("small", "sphere", R"(<scale value="0.4"/><translate x="1.5"/>)");
     const std::string smallBall = R"(<scale value="0.5"/><translate x="-1.3" y="-0.4" z="0.8"/>)";
-    CompileOptions everyLight;
-    everyLight.sampleEveryLight = true;
     const auto compiled = [size](const std::string& body, const SceneFrame& frame = {}) {
         return compileText(sceneXml(body, frame), size);
     };
@@ -193,17 +205,12 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
          compiled(kSky + homogeneous("outer", "1.5", 0) + around("outer", "cube") + homogeneous("inner", "5", 0.5) +
                   R"(<shape type="sphere"><float name="radius" value="0.5"/><bsdf type="null"/>
     <ref name="interior" id="inner"/><ref name="exterior" id="outer"/></shape>)")},
-        {"sky sampled, fog", compileText(sceneXml(kSky + kSphereLight + greyBox), size, everyLight)},
-        {"empty sky", compiled(kSky)},
-        {"gradient sky, fog", compiled(kFloor + gradientSky("") + greyBox)},
         {"starry sky, cloud, sun", compiled(kFloor + gradientSky(kStars) + kSun + isotropicCloud)},
-        {"environment map, fog", compiled(kFloor + environmentMap() + greyBox)},
-        {"environment map, cloud, lamp", compiled(kFloor + environmentMap() + kQuadLight + isotropicCloud)},
-        {"empty environment map", compiled(environmentMap())},
         {"two-sided lights, fog",
          compiled(kFloor + kTwoSidedQuad + kSphereLight + greyBox + ball(folder, true, smallBall, kTwoSidedMesh))},
     };
     std::ranges::move(phaseScenes(size), std::back_inserter(scenes));
+    std::ranges::move(environmentScenes(size), std::back_inserter(scenes));
     return scenes;
 }
 
