@@ -34,6 +34,7 @@ SCENES = {
     "hetero_sigmat": (REFERENCES / "hetero_sigmat.xml", 64),
     "homo_null": (REFERENCES / "homo_null.xml", 64),
     "hdr_sky_only": (BENCHMARK / "hdr_sky_only.xml", 64),
+    "bunny_hdr_sky": (BENCHMARK / "bunny_hdr_sky.xml", 64),
     "environment_floor": (REFERENCES / "environment_floor.xml", 256),
     "homo_null_envmap": (MITSUBA_TESTS / "test_homo_null_envmap_volpath.xml", 64),
     "hetero_sigmat_envmap": (MITSUBA_TESTS / "test_hetero_sigmat_volpath.xml", 64),
