@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "compile/compile_environment.h"
 #include "compile/compile_sky.h"
 #include "compile/luminance.h"
 #include "compile/transforms.h"
@@ -72,6 +73,7 @@ public:
                                                  "environment map", "sky"};
         const std::string name = kNames[static_cast<int>(emitter.type)];
         if (emitter.type == EmitterDescription::Type::Sky) return addSky(emitter);
+        if (emitter.type == EmitterDescription::Type::EnvironmentMap) return addEnvironmentMap(emitter);
         shared::Light light{};
         light.texture = shared::kNone;
         light.emission = toFloat(emitter.value, emitter.where, name);
@@ -95,8 +97,22 @@ public:
                     emitter.where);
             case EmitterDescription::Type::Sky:
             case EmitterDescription::Type::EnvironmentMap:
-                throw InputError(emitter.where, name + " is not supported");
+                return;  // above
         }
+    }
+
+    void addEnvironmentMap(const EmitterDescription& emitter) {
+        if (isUniform(emitter.map)) {
+            EmitterDescription uniform;
+            uniform.where = emitter.where;
+            uniform.value = glm::dvec3(emitter.map.texels.front()) * emitter.value;
+            return uniform.value == glm::dvec3(0.0) ? noteBlack("environment map") : addEmitter(uniform);
+        }
+        const bool scatteringCounts = scene_.constants.scatterSamples > 0.0f;
+        if (emitter.misCompensation && !scatteringCounts)
+            scene_.notes.push_back("environment map: without scattering samples there is no MIS compensation");
+        const glm::dvec3 mean = compileEnvironment(emitter, emitter.misCompensation && scatteringCounts, scene_);
+        addSurrounding(shared::kLightEnvironmentMap, "environment map", mean, emitter.where);
     }
 
     void addSky(const EmitterDescription& emitter) {
@@ -109,12 +125,17 @@ public:
             return uniform.value == glm::dvec3(0.0) ? noteBlack("sky") : addEmitter(uniform);
         }
         const glm::dvec3 mean = compileSky(emitter.sky, emitter.where, scene_);
-        if (mean == glm::dvec3(0.0)) return noteBlack("sky");
+        addSurrounding(shared::kLightSky, "sky", mean, emitter.where);
+    }
+
+    /// A light that shines from everywhere, of the given mean radiance.
+    void addSurrounding(std::uint32_t type, const char* name, const glm::dvec3& mean, const SourceLocation& where) {
+        if (mean == glm::dvec3(0.0)) return noteBlack(name);
         shared::Light light{};
         light.emission = glm::vec3(mean);  // for those who list lights
-        light.type = shared::kLightSky;
+        light.type = type;
         light.texture = light.primitive = shared::kNone;
-        append({light, 4.0 * kPi * kPi * radius_ * radius_ * luminance(mean), shared::kNone}, emitter.where);
+        append({light, 4.0 * kPi * kPi * radius_ * radius_ * luminance(mean), shared::kNone}, where);
     }
 
     /// Lights that are sampled come first, so that the others need no place in the search.
@@ -127,8 +148,9 @@ public:
             constants.lights[index] = pending.light;
             powers.push_back(pending.power);
             if (pending.shape != shared::kNone) scene_.shapes[pending.shape].light = index;
-            const bool surrounds =
-                pending.light.type == shared::kLightEnvironment || pending.light.type == shared::kLightSky;
+            const bool surrounds = pending.light.type == shared::kLightEnvironment ||
+                                   pending.light.type == shared::kLightEnvironmentMap ||
+                                   pending.light.type == shared::kLightSky;
             if (surrounds) constants.environment = index;
         }
         assignSelection(powers, std::span(constants.lights).first(constants.lightCount));
@@ -194,11 +216,11 @@ void rejectSecondEnvironment(const SceneDescription& description) {
     const EmitterDescription* first = nullptr;
     for (const EmitterDescription& emitter : description.emitters) {
         using Type = EmitterDescription::Type;
-        if (emitter.type != Type::Constant && emitter.type != Type::Sky) continue;
+        if (emitter.type == Type::Directional || emitter.type == Type::Point) continue;
         if (first)
             throw InputError(
                 emitter.where,
-                fmt::format("a scene may have one constant emitter or sky; the first is at {}", first->where.text()));
+                fmt::format("a scene may have one emitter that surrounds it; the first is at {}", first->where.text()));
         first = &emitter;
     }
 }

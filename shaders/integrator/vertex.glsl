@@ -15,6 +15,11 @@ void addEnvironment(inout Path p) {
     if (environmentLight == kNone || p.vertex >= maxDepth) return;
     vec3 radiance = environmentRadiance;
     float pdf = kInvFourPi;
+    if (hasEnvironmentMap && scene.lights[environmentLight].type == kLightEnvironmentMap) {
+        vec4 point = environmentAt(p.ray.direction);
+        radiance = point.rgb;
+        pdf = point.w;
+    }
     if (hasSky && scene.lights[environmentLight].type == kLightSky) {
         SkyPoint point = SkyPoint(p.ray.direction, hasStars ? findStar(p.ray.direction) : kNone);
         radiance = skyRadiance(point);
@@ -53,7 +58,8 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
         uvec4 choice = drawStratified(p.stream, p.vertex, kDrawLight);
         vec3 u = vec3(toUniform(choice.z), toUniform(choice.x), toUniform(choice.y));
         float largestFactor = v.scatterer.surface ? maxComponent(v.factor) : 1.0;
-        uvec4 words = hasSky ? drawStratified(p.stream, p.vertex, kDrawEnvironment) : uvec4(0u);
+        uvec4 words = uvec4(0u);
+        if (hasSky || hasEnvironmentMap) words = drawStratified(p.stream, p.vertex, kDrawEnvironment);
         light = estimateDirect(v.scatterer, p.vertexPosition, u, words, largestFactor, counts.tests);
         p.pending = spectralBeta(p) * light.contribution;
         shadow = maxComponent(p.pending) > 0.0;

@@ -5,17 +5,9 @@
 #include "core/frame.glsl"
 #include "core/scene.glsl"
 #include "geometry/intersection.glsl"
-#include "light/sky.glsl"
+#include "light/surrounding.glsl"
 #include "sampling/distribution.glsl"
 #include "sampling/warp.glsl"
-
-struct LightSample {
-    vec3 direction;         // unit, towards the light
-    float distance;         // to the light point; infinite for directional and environment
-    vec3 radianceOverPdf;   // 0 where the light cannot be seen
-    float pdf;              // per steradian, selection included; infinite for delta lights
-    uint target;            // primitive to ignore on the way
-};
 
 // Shader only: the reference refers to lights.
 Light lightAt(uint index) {
@@ -96,7 +88,7 @@ LightSample sampleMeshLight(Light light, vec3 position, float selector, vec2 u, 
     return sampleArea(light, position, surface.position, surface.geometricNormal, light.area, primitive);
 }
 
-// A light seen from `position`, chosen by u.x, placed by u.yz, or by `words` (the environment draw) on a sky.
+// A light seen from `position`, chosen by u.x, placed by u.yz, or by `words` (the environment draw) on a map or sky.
 LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
     uint index = selectLight(u.x);
     tests += hasManyLights ? 9u : 0u;
@@ -122,15 +114,7 @@ LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
         result = LightSample(toLight * sqrt(inverse), sqrt(square), light.emission * inverse / light.selection,
                              kInfinity, kNone);
     }
-    if (hasEnvironmentSampling && light.type == kLightEnvironment) {
-        float pdf = kInvFourPi * light.selection;
-        result = LightSample(uniformSphere(u.yz), kInfinity, light.emission / pdf, pdf, kNone);
-    }
-    if (hasSky && light.type == kLightSky) {
-        SkyPoint point = sampleSky(words);
-        float pdf = skyPdf(point) * light.selection;
-        result = LightSample(point.direction, kInfinity, skyRadiance(point) * safeDivide(1.0, pdf), pdf, kNone);
-    }
+    if (hasEnvironmentSampling && light.type >= kLightEnvironment) result = sampleSurrounding(light, u.yz, words);
     tests += hasStars ? kMaxStarsPerCell + 1u : 0u;
     return result;
 }

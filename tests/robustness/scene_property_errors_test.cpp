@@ -48,7 +48,7 @@ std::vector<BadText> badSurfaces() {
          sceneOf("<shape type=\"@@spere\"/>"),
          {"\"spere\" is not supported", "did you mean \"sphere\"?"}},
         {"KnownToMitsubaOnly", sceneOf("<shape type=\"@@cylinder\"/>"), {"obj, rectangle, cube, sphere"}},
-        {"EnvironmentMap", sceneOf("<emitter type=\"@@envmap\"/>"), {"constant, directional, point"}},
+        {"SunAndSky", sceneOf("<emitter type=\"@@sunsky\"/>"), {"constant, directional, envmap, point, sky"}},
         {"GlossySurface", sphereOf("<bsdf type=\"@@roughconductor\"/>"), {"diffuse, null, twosided"}},
         {"TwoSurfaces", sphereOf("<bsdf type=\"diffuse\"/>@@<bsdf type=\"null\"/>"), {"only one <bsdf>"}},
         {"TwoSidedNull", sphereOf("<bsdf type=\"twosided\">@@<bsdf type=\"null\"/></bsdf>"), {"diffuse", "null"}},

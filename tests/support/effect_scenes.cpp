@@ -41,6 +41,12 @@ std::string gradientSky(const std::string& stars) {
     <rgb name="bottom" value="0.7, 0.5, 0.3"/><rgb name="top" value="0.2, 0.4, 0.9"/>)" +
            stars + "</emitter>";
 }
+std::string environmentMap() {
+    return "<emitter type=\"envmap\"><string name=\"filename\" value=\"" +
+           (sceneFolder() / "environments/afternoon.hdr").string() +
+           "\"/><transform name=\"to_world\"><rotate x=\"1\" z=\"0.4\" angle=\"70\"/></transform></emitter>";
+}
+
 /// Faces up, away from the floor.
 const std::string kTwoSidedQuad = R"(<shape type="rectangle">
     <transform name="to_world"><scale value="0.5"/><rotate x="1" angle="-80"/><translate x="0.3" y="1.7"/></transform>
@@ -126,6 +132,20 @@ std::vector<NamedScene> phaseScenes(glm::uvec2 size) {
                       ballOf("c", kPhaseTable, "y=\"0.8\"") + ballOf("d", "<phase type=\"hg\"/>", "y=\"-0.8\""))}};
 }
 
+/// What surrounds a scene.
+std::vector<NamedScene> environmentScenes(glm::uvec2 size) {
+    CompileOptions everyLight;
+    everyLight.sampleEveryLight = true;
+    const auto compiled = [size](const std::string& body) { return compileText(sceneXml(body), size); };
+    const std::string fog = homogeneous("fog", "1.5", 0.6) + around("fog", "cube");
+    return {{"sky sampled, fog", compileText(sceneXml(kSky + kSphereLight + fog), size, everyLight)},
+            {"empty sky", compiled(kSky)},
+            {"gradient sky, fog", compiled(kFloor + gradientSky("") + fog)},
+            {"environment map, fog", compiled(kFloor + environmentMap() + fog)},
+            {"environment map, lamp", compiled(kFloor + environmentMap() + kQuadLight)},
+            {"empty environment map", compiled(environmentMap())}};
+}
+
 CompiledScene makeChromatic(CompiledScene scene) {
     scene.constants.media[0].sigmaRatio = {1.0f, 0.7f, 0.45f};
     scene.effects = analyseEffects(scene);
@@ -163,8 +183,6 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
     const std::string smallFog =
         homogeneous("small", "4, 2, 1", 0) + around("small", "sphere", R"(<scale value="0.4"/><translate x="1.5"/>)");
     const std::string smallBall = R"(<scale value="0.5"/><translate x="-1.3" y="-0.4" z="0.8"/>)";
-    CompileOptions everyLight;
-    everyLight.sampleEveryLight = true;
     const auto compiled = [size](const std::string& body, const SceneFrame& frame = {}) {
         return compileText(sceneXml(body, frame), size);
     };
@@ -187,14 +205,12 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
          compiled(kSky + homogeneous("outer", "1.5", 0) + around("outer", "cube") + homogeneous("inner", "5", 0.5) +
                   R"(<shape type="sphere"><float name="radius" value="0.5"/><bsdf type="null"/>
     <ref name="interior" id="inner"/><ref name="exterior" id="outer"/></shape>)")},
-        {"sky sampled, fog", compileText(sceneXml(kSky + kSphereLight + greyBox), size, everyLight)},
-        {"empty sky", compiled(kSky)},
-        {"gradient sky, fog", compiled(kFloor + gradientSky("") + greyBox)},
         {"starry sky, cloud, sun", compiled(kFloor + gradientSky(kStars) + kSun + isotropicCloud)},
         {"two-sided lights, fog",
          compiled(kFloor + kTwoSidedQuad + kSphereLight + greyBox + ball(folder, true, smallBall, kTwoSidedMesh))},
     };
     std::ranges::move(phaseScenes(size), std::back_inserter(scenes));
+    std::ranges::move(environmentScenes(size), std::back_inserter(scenes));
     return scenes;
 }
 

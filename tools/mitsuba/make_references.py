@@ -25,6 +25,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 REFERENCES = ROOT / "tests" / "references"
 BENCHMARK = ROOT.parent / "shared" / "benchmark"
+MITSUBA_TESTS = ROOT.parent / "shared" / "data" / "mitsuba" / "tests" / "scenes" / "participating_media"
 
 SCENES_FOLDER = ROOT / "scenes"
 MAPS = ROOT.parent / "shared" / "data" / "environments"
@@ -54,6 +55,9 @@ SCENES = {
     "empty_noon_grass": Scene(SCENES_FOLDER / "empty_environment.xml", 1024, 32,
                               {"map": str(MAPS / "noon_grass_1k.hdr")}),
     "mesh_under_sky": Scene(REFERENCES / "mesh_under_sky.xml", 512, 32),
+    "environment_floor": Scene(REFERENCES / "environment_floor.xml", 256, 32),
+    "homo_null_envmap": Scene(MITSUBA_TESTS / "test_homo_null_envmap_volpath.xml", 64, 32),
+    "hetero_sigmat_envmap": Scene(MITSUBA_TESTS / "test_hetero_sigmat_volpath.xml", 64, 32),
 }
 TARGET_ERROR = 5e-4  # standard error of the image mean, relative
 MINIMUM_SEEDS = 32
@@ -98,6 +102,8 @@ def read(mi, file, size, spp):
 
 def load(mi, scene, size):
     """The scene with its sampler replaced; files are found beside it."""
+    if MITSUBA_TESTS in scene.file.parents:
+        return mi.load_file(str(scene.file), res=size, spp=scene.samples)
     mi.file_resolver().prepend(str(scene.file.parent))
     text = scene.file.read_text().replace('<sampler type="independent">', f'<sampler type="{scene.sampler}">')
     return mi.load_string(text, size=size, spp=scene.samples, **scene.parameters)
@@ -117,7 +123,7 @@ def render(mi, description, size, minutes, moments):
 
     while not done():
         image = np.array(mi.render(scene, spp=spp, seed=1 + moments.count), dtype=np.float64)
-        moments.add(image[:, :, :3])
+        moments.add(image[:, :, :3])  # of the `moment` integrator, too: its first channels
 
 
 def origin(mi):

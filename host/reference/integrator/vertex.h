@@ -39,9 +39,10 @@ void addEnvironment(const SceneView<Real>& scene, PathState<Real>& state) {
     if (scene.constants.environment == kNone) return;
     const Light<Real>& light = scene.lights[scene.constants.environment];
     const Vec3<Real>& direction = state.ray.direction;
-    const Vec3<Real> radiance = light.type == shared::kLightSky
-                                    ? skyRadiance(scene, SkyPoint<Real>{direction, findStar(scene, direction)})
-                                    : light.emission;
+    Vec3<Real> radiance = light.emission;
+    if (light.type == shared::kLightEnvironmentMap) radiance = environmentAt(scene, direction).radiance;
+    if (light.type == shared::kLightSky)
+        radiance = skyRadiance(scene, SkyPoint<Real>{direction, findStar(scene, direction)});
     addEmission(scene, light, radiance, kInfinity<Real>, -direction, state);
 }
 

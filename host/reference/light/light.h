@@ -1,25 +1,12 @@
 #pragma once
 
-#include <optional>
-
 #include "reference/core/frame.h"
 #include "reference/geometry/intersection.h"
-#include "reference/light/sky.h"
+#include "reference/light/surrounding.h"
 #include "reference/sampling/distribution.h"
 #include "reference/sampling/warp.h"
 
 namespace parhelion::reference {
-
-/// A direction towards a light.
-template <typename Real>
-struct LightSample {
-    Vec3<Real> direction;        ///< unit, away from the vertex
-    Real distance;               ///< to the light point; infinite for directional lights and the environment
-    std::uint32_t target;        ///< primitive of the light point, or kNone
-    Vec3<Real> radianceOverPdf;  ///< selection included
-    Real pdf;                    ///< per steradian, selection included; of no meaning for a delta light
-    bool isDelta;
-};
 
 /// Cosine at an area light of what leaves along `outgoing`: nothing does behind, unless the light has two sides.
 template <typename Real>
@@ -105,7 +92,7 @@ std::optional<LightSample<Real>> sampleDeltaLight(const Light<Real>& light, cons
 /// Chooses one light and a point of it.
 ///
 /// @param u      which light; the light point.
-/// @param words  the environment draw: the point of a sky; others do without.
+/// @param words  the environment draw: the point of a map or a sky; others do without.
 /// @return nothing when no light is sampled, or the one chosen sends nothing this way.
 template <typename Real>
 std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const Vec3<Real>& position,
@@ -128,17 +115,10 @@ std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const
             const Real selector = std::min((u.x - before) / light.selection, kBelowOne);
             return sampleMeshLight(scene, light, position, selector, uv);
         }
-        case shared::kLightEnvironment: {
-            const Real pdf = light.selection / (4 * kPi<Real>);
-            return LightSample<Real>{uniformSphere(uv), kInfinity<Real>, kNone, light.emission / pdf, pdf, false};
-        }
-        case shared::kLightSky: {
-            const SkyPoint<Real> point = sampleSky(scene, words);
-            const Real pdf = light.selection * skyPdf(scene, point);
-            if (pdf == 0) return std::nullopt;
-            return LightSample<Real>{
-                point.direction, kInfinity<Real>, kNone, skyRadiance(scene, point) / pdf, pdf, false};
-        }
+        case shared::kLightEnvironment:
+        case shared::kLightEnvironmentMap:
+        case shared::kLightSky:
+            return sampleSurrounding(scene, light, uv, words);
         default:
             return sampleDeltaLight(light, position);
     }
@@ -151,6 +131,7 @@ Real lightPdf(const SceneView<Real>& scene, const Light<Real>& light, const Vec3
               const Vec3<Real>& direction, Real distance, const Vec3<Real>& normal) {
     if (light.selection == 0) return 0;
     if (light.type == shared::kLightEnvironment) return light.selection / (4 * kPi<Real>);
+    if (light.type == shared::kLightEnvironmentMap) return light.selection * environmentAt(scene, direction).pdf;
     if (light.type == shared::kLightSky)
         return light.selection * skyPdf(scene, SkyPoint<Real>{direction, findStar(scene, direction)});
     if (light.type == shared::kLightSphere) {
