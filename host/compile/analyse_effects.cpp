@@ -152,7 +152,7 @@ private:
         decide(Effect::hasStars, surrounding == shared::kLightSky && constants_.sky.starCount > 0,
                countOf(constants_.sky.starCount, "star", "stars"), "no star");
         decide(Effect::hasStrategyWeights, constants_.emitterSamples != 1.0f || constants_.scatterSamples != 1.0f,
-               fmt::format("direct lighting takes {} light and {} scattering samples", constants_.emitterSamples,
+               fmt::format("light samples weigh {}, scattering samples {}", constants_.emitterSamples,
                            constants_.scatterSamples),
                "light and scattering samples weigh the same");
         decide(Effect::hasEnvironment, environment, "an emitter surrounds the scene", "no emitter surrounds the scene");
@@ -162,8 +162,13 @@ private:
                countOf(delta, "directional or point light", "directional and point lights"),
                "no directional or point light");
         decide(Effect::hasAreaLights, area > 0, countOf(area, "area light", "area lights"), "no area light");
-        decide(Effect::hasManyLights, sampled > 1, countOf(sampled, "sampled light", "sampled lights"),
-               countOf(sampled, "sampled light", "sampled lights"));
+        // Those that light sampling chooses from, and those that are looked up where a path meets them.
+        const std::size_t listed = countLights([](const Light& light) {
+            return light.selection > 0.0f || light.type == shared::kLightQuad || light.type == shared::kLightSphere ||
+                   light.type == shared::kLightMesh;
+        });
+        decide(Effect::hasManyLights, listed > 1, countOf(listed, "sampled or area light", "sampled or area lights"),
+               countOf(listed, "sampled or area light", "sampled or area lights"));
     }
 
     const CompiledScene& scene_;

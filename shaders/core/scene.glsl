@@ -47,6 +47,8 @@ Sky sky;
 uint maxDepth;
 uint rouletteDepth;
 uint triangleCount;
+float emitterSamples;
+float scatterSamples;
 
 // Shader only: fills the copies; every kernel calls it first.
 void loadScene() {
@@ -69,6 +71,8 @@ void loadScene() {
     maxDepth = scene.maxDepth;
     rouletteDepth = scene.rouletteDepth;
     triangleCount = scene.triangleCount;
+    emitterSamples = scene.emitterSamples;
+    scatterSamples = scene.scatterSamples;
 }
 
 Shape shapeAt(uint index) {

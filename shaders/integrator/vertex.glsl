@@ -7,7 +7,9 @@ void addEmission(inout Path p, Surface surface, uint lightIndex) {
     if (lightIndex == kNone || p.vertex >= maxDepth) return;
     Light light = lightAt(lightIndex);
     float cosine = lightCosine(light, surface.geometricNormal, -p.ray.direction);
-    float weight = balanceHeuristic(p.lastPdf, lightPdf(light, p.ray.origin, p.hit.t, cosine));
+    float pdf = lightPdf(light, p.ray.origin, p.hit.t, cosine);
+    if (hasStrategyWeights) pdf *= emitterSamples;
+    float weight = emissionWeight(p.lastPdf, pdf);
     if (cosine > 0.0) p.radiance += spectralBeta(p) * light.emission * weight;
 }
 
@@ -21,8 +23,11 @@ void addEnvironment(inout Path p) {
         pdf = skyPdf(point);
     }
     float weight = 1.0;
-    if (hasEnvironmentSampling)
-        weight = balanceHeuristic(p.lastPdf, pdf * scene.lights[environmentLight].selection);
+    if (hasEnvironmentSampling) {
+        pdf *= scene.lights[environmentLight].selection;
+        if (hasStrategyWeights) pdf *= emitterSamples;
+        weight = emissionWeight(p.lastPdf, pdf);
+    }
     p.radiance += spectralBeta(p) * radiance * weight;
 }
 
@@ -45,7 +50,7 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
     bool alive = p.vertex < maxDepth && largest > 0.0 && toUniform(word.w) < survival;
     p.beta /= survival;
     vec4 next = sampleScatterer(v.scatterer, vec2(toUniform(word.x), toUniform(word.y)));
-    p.lastPdf = next.w;
+    p.lastPdf = hasStrategyWeights ? next.w * scatterSamples : next.w;
     p.nextDirection = next.xyz;
     p.nextExponential = uvec2(word.z, spareBits(word.x, word.y, word.w));
     bool shadow = false;

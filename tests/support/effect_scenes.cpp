@@ -191,6 +191,10 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
         {"empty sky", compiled(kSky)},
         {"gradient sky, fog", compiled(kFloor + gradientSky("") + greyBox)},
         {"starry sky, cloud, sun", compiled(kFloor + gradientSky(kStars) + kSun + isotropicCloud)},
+        {"direct lighting, four light samples to one",
+         compiled(
+             kFloor + kSky + kSun + kQuadLight + ball(folder, false, smallBall, kTwoSided),
+             {.integrator = R"(<integrator type="direct"><integer name="emitter_samples" value="4"/></integrator>)"})},
         {"two-sided lights, fog",
          compiled(kFloor + kTwoSidedQuad + kSphereLight + greyBox + ball(folder, true, smallBall, kTwoSidedMesh))},
     };

@@ -57,6 +57,11 @@ TEST(SharedLayout, FilmPixelIsTheSameInBothLanguages) {
     expectLayout("FilmPixel", sizeof(Type), {MEMBER(sumHigh), MEMBER(sumLow), MEMBER(squareHigh), MEMBER(squareLow)});
 }
 
+TEST(SharedLayout, LayerPixelIsTheSameInBothLanguages) {
+    using Type = shared::LayerPixel;
+    expectLayout("LayerPixel", sizeof(Type), {MEMBER(sumHigh), MEMBER(sumLow)});
+}
+
 TEST(SharedLayout, FeaturePixelIsTheSameInBothLanguages) {
     using Type = shared::FeaturePixel;
     expectLayout("FeaturePixel", sizeof(Type), {MEMBER(albedo), MEMBER(depth), MEMBER(normal), MEMBER(hits)});
@@ -174,6 +179,7 @@ TEST(SharedLayout, SceneConstantsAreTheSameInBothLanguages) {
                   MEMBER(emitterSamples),
                   MEMBER(scatterSamples),
                   MEMBER(textureCount),
+                  MEMBER(depthLayers),
                   MEMBER(environmentMap),
                   MEMBER(sky),
                   MEMBER(quads),

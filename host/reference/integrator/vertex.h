@@ -11,7 +11,8 @@ struct PathState {
     Residual<Real> residual;
     Throughput<Real> throughput{};
     Vec3<Real> radiance{0};
-    Real lastPdf = kInfinity<Real>;  ///< of the ray's direction; infinite from the camera: no light sample competes
+    Real lastPdf = kInfinity<Real>;  ///< of the ray's direction, times the samples of scattering; infinite from the
+                                     ///< camera: no light sample competes
     std::uint32_t scatterings = 0;
 };
 
@@ -29,7 +30,7 @@ template <typename Real>
 void addEmission(const SceneView<Real>& scene, const Light<Real>& light, const Vec3<Real>& emission, Real distance,
                  const Vec3<Real>& normal, PathState<Real>& state) {
     const Real pdf = lightPdf(scene, light, state.ray.origin, state.ray.direction, distance, normal);
-    const Real mis = balanceHeuristic(state.lastPdf, pdf);
+    const Real mis = emissionWeight(state.lastPdf, pdf * Real(scene.constants.emitterSamples));
     state.radiance += state.throughput.beta * emission * (mis / state.throughput.meanR());
 }
 
@@ -71,7 +72,7 @@ bool scatter(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex, c
     const Vec2<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y)};
     const DirectionSample<Real> next = sampleScatterer(vertex, u);
     state.ray = spawnRay(vertex, next.direction);
-    state.lastPdf = next.pdf;
+    state.lastPdf = next.pdf * Real(path.scene.constants.scatterSamples);
     state.residual = {exponential<Real>(words.z, spareBits(words.x, words.y, words.w))};
     state.scatterings = vertex.index;
     return true;
