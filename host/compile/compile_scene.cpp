@@ -41,6 +41,7 @@ void compileIntegrator(const SceneDescription& description, const CompileOptions
     scene.constants.maxDepth = depth < 0 ? shared::kNone : std::uint32_t(std::min(depth, kUnlimited));
     scene.constants.rouletteDepth = std::uint32_t(std::min(description.integrator.rouletteDepth, kUnlimited));
     compileStrategies(description.integrator, options, scene);
+    scene.constants.depthLayers = options.depthLayers.value_or(description.integrator.depthLayers);
     scene.sampleCount = description.sampleCount;
     scene.seed = description.seed;
 }

@@ -17,6 +17,7 @@ const XmlElement& unwrapMoment(const ReadContext& context, const XmlElement& ele
 
 constexpr std::int64_t kMostSamples = 1'000'000;
 constexpr std::int64_t kDeepest = 1'000'000'000;
+constexpr std::int64_t kMostDepthLayers = IntegratorDescription::kMostDepthLayers;
 
 /// What `strategy` and Mitsuba's three numbers of samples say; each way excludes the others.
 void readStrategy(ReadContext& context, PropertyReader& reader, IntegratorDescription& integrator) {
@@ -70,6 +71,7 @@ void readIntegrator(ReadContext& context, const XmlElement& element) {
     } else {
         readDepth(reader, integrator);
     }
+    integrator.depthLayers = unsigned(reader.integer("depth_layers", 0, 0, kMostDepthLayers));
     if (reader.boolean("hide_emitters", false))
         reader.fail(reader.whereOf("hide_emitters"), "\"hide_emitters\" must be false; hiding lights is not supported");
     for (const char* name : {"samples_per_pass", "block_size"})

@@ -48,6 +48,8 @@ struct IntegratorDescription {
     unsigned depthLayers = 0;      ///< film layers by number of scatterings, the last for all above; 0: none
     std::int64_t maxDepth = -1;    ///< Mitsuba's meaning; -1: unlimited
     std::int64_t rouletteDepth = 5;
+
+    static constexpr unsigned kMostDepthLayers = 64;
 };
 
 /// A colour over a surface's (u, v).

@@ -49,6 +49,7 @@ uint rouletteDepth;
 uint triangleCount;
 float emitterSamples;
 float scatterSamples;
+uint depthLayers;
 
 // Shader only: fills the copies; every kernel calls it first.
 void loadScene() {
@@ -73,6 +74,7 @@ void loadScene() {
     triangleCount = scene.triangleCount;
     emitterSamples = scene.emitterSamples;
     scatterSamples = scene.scatterSamples;
+    depthLayers = scene.depthLayers;
 }
 
 Shape shapeAt(uint index) {

@@ -26,6 +26,8 @@ struct Path {
 };
 
 layout(set = 0, binding = 13, scalar) buffer PathStates { uint pathStates[]; };
+layout(set = 0, binding = 26, scalar) buffer LayerBlock { LayerPixel layers[]; };
+uint firstLayer;  // of the lane's pixel
 
 // Shader only: the reference never suspends a path.
 void storeWord(inout uint at, uint stride, uint word) {

@@ -73,6 +73,7 @@ std::vector<BadText> badStrategies() {
          {"must be at least 1"}},
         {"NegativeSamples", directOf("<integer name=\"emitter_samples\" value=\"@@-1\"/>"), {"[0, 1000000]", "got -1"}},
         {"DirectHasNoDepth", directOf("@@<integer name=\"max_depth\" value=\"3\"/>"), {"unknown property"}},
+        {"TooManyDepthLayers", integratorOf("<integer name=\"depth_layers\" value=\"@@65\"/>"), {"[0, 64]", "got 65"}},
         {"StrategyOfAPath", integratorOf("@@<string name=\"strategy\" value=\"mis\"/>"), {"unknown property"}},
     };
 }

@@ -126,6 +126,22 @@ std::vector<NamedScene> phaseScenes(glm::uvec2 size) {
                       ballOf("c", kPhaseTable, "y=\"0.8\"") + ballOf("d", "<phase type=\"hg\"/>", "y=\"-0.8\""))}};
 }
 
+/// What integrators other than the plain path tracers do.
+std::vector<NamedScene> integratorScenes(const TemporaryFolder& folder, glm::uvec2 size) {
+    const SceneFrame fourToOne{
+        .integrator = R"(<integrator type="direct"><integer name="emitter_samples" value="4"/></integrator>)"};
+    const SceneFrame layered{.integrator =
+                                 R"(<integrator type="volpath"><integer name="depth_layers" value="3"/></integrator>)"};
+    const std::string meshAndFloor =
+        kFloor + ball(folder, false, R"(<scale value="0.5"/><translate x="-1.3" y="-0.4" z="0.8"/>)", kTwoSided);
+    return {{"direct lighting, four light samples to one",
+             compileText(sceneXml(meshAndFloor + kSky + kSun + kQuadLight, fourToOne), size)},
+            {"layers by depth, fog, quad light",
+             compileText(
+                 sceneXml(kFloor + kSky + kQuadLight + homogeneous("fog", "1.5", 0.6) + around("fog", "cube"), layered),
+                 size)}};
+}
+
 CompiledScene makeChromatic(CompiledScene scene) {
     scene.constants.media[0].sigmaRatio = {1.0f, 0.7f, 0.45f};
     scene.effects = analyseEffects(scene);
@@ -191,14 +207,11 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
         {"empty sky", compiled(kSky)},
         {"gradient sky, fog", compiled(kFloor + gradientSky("") + greyBox)},
         {"starry sky, cloud, sun", compiled(kFloor + gradientSky(kStars) + kSun + isotropicCloud)},
-        {"direct lighting, four light samples to one",
-         compiled(
-             kFloor + kSky + kSun + kQuadLight + ball(folder, false, smallBall, kTwoSided),
-             {.integrator = R"(<integrator type="direct"><integer name="emitter_samples" value="4"/></integrator>)"})},
         {"two-sided lights, fog",
          compiled(kFloor + kTwoSidedQuad + kSphereLight + greyBox + ball(folder, true, smallBall, kTwoSidedMesh))},
     };
     std::ranges::move(phaseScenes(size), std::back_inserter(scenes));
+    std::ranges::move(integratorScenes(folder, size), std::back_inserter(scenes));
     return scenes;
 }
 
