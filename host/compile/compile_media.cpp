@@ -8,6 +8,7 @@
 
 #include "compile/compile_phase.h"
 #include "compile/density_storage.h"
+#include "compile/extinction_grid.h"
 #include "compile/majorant_grid.h"
 #include "compile/transforms.h"
 
@@ -89,14 +90,14 @@ void writeAlbedo(const MediumDescription& medium, const glm::dvec3& worldOrigin,
     scene.albedoVoxels.insert(scene.albedoVoxels.end(), texels.begin(), texels.end());
 }
 
-void writeDensity(const MediumDescription& medium, const glm::dvec3& worldOrigin, bool bricked, shared::Medium& record,
-                  CompiledScene& scene) {
-    if (!medium.density) {
+void writeDensity(const MediumDescription& medium, const ExtinctionGrid* extinction, const glm::dvec3& worldOrigin,
+                  bool bricked, shared::Medium& record, CompiledScene& scene) {
+    if (!extinction) {
         record.flags |= shared::kMediumHomogeneous;
         record.resolution = record.cells = glm::uvec3(1);
         return;
     }
-    const DensityGrid& grid = medium.density->volume.density;
+    const DensityGrid& grid = extinction->largest();
     const MajorantGrid majorants = buildMajorants(grid);
     if (!std::isfinite(record.sigmaMax * *std::ranges::max_element(majorants.bounds)))
         throw InputError(medium.density->where, nameOf(medium) +
@@ -108,6 +109,12 @@ void writeDensity(const MediumDescription& medium, const glm::dvec3& worldOrigin
     record.cells = majorants.cells;
     record.cellOffset = std::uint32_t(scene.majorants.size());
     scene.majorants.insert(scene.majorants.end(), majorants.bounds.begin(), majorants.bounds.end());
+    if (const ColorGrid* color = extinction->color()) {
+        record.flags |= shared::kMediumColorDensity;
+        record.voxelOffset = std::uint32_t(scene.density.size());
+        scene.density.insert(scene.density.end(), color->values.begin(), color->values.end());
+        return;
+    }
     record.voxelOffset = appendDensity(grid, bricked, scene);
     if (bricked) record.flags |= shared::kMediumBricked;
 }
@@ -117,19 +124,23 @@ void requireAtMost(std::size_t needed, std::size_t allowed, const char* unit, co
         throw RuntimeFailure(fmt::format("{} need {} {}; allowed are {}", what, needed, unit, allowed));
 }
 
-/// Before anything large is allocated.
-DensityPlan planStorage(std::span<const MediumDescription* const> media, std::size_t memoryLimitBytes) {
+/// Before anything large is allocated. Grids with a value a channel are always dense.
+DensityPlan planStorage(std::span<const MediumDescription* const> media,
+                        std::span<const std::optional<ExtinctionGrid>> extinctions, std::size_t memoryLimitBytes) {
     std::vector<const DensityGrid*> grids;
-    std::size_t cells = 0, albedoCount = 0;
-    for (const MediumDescription* medium : media) {
-        if (medium->density) {
-            const DensityGrid& grid = medium->density->volume.density;
-            grids.push_back(&grid);
-            cells += grid.brickTable().size();
-        }
-        if (medium->albedoGrid) albedoCount += texelCount(*medium->albedoGrid);
+    std::size_t cells = 0, colored = 0, albedoCount = 0;
+    for (const auto& extinction : extinctions) {
+        if (!extinction) continue;
+        if (extinction->color())
+            colored += extinction->color()->values.size();
+        else
+            grids.push_back(&extinction->largest());
+        cells += extinction->largest().brickTable().size();
     }
-    const DensityPlan plan = planDensityStorage(grids);
+    for (const MediumDescription* medium : media)
+        if (medium->albedoGrid) albedoCount += texelCount(*medium->albedoGrid);
+    DensityPlan plan = planDensityStorage(grids);
+    plan.voxels += colored;
     requireAtMost(plan.voxels, kMaxDensityVoxels, "voxels", "density grids");
     requireAtMost(plan.tableEntries, kMaxTexels, "bricks", "density grids");
     requireAtMost(cells, kMaxTexels, "cells", "majorant grids");
@@ -148,12 +159,7 @@ std::vector<bool> findEmptyMedia(const SceneDescription& description, std::vecto
             throw InputError(medium.density->where,
                              nameOf(medium) + ": a procedural cloud must be baked (bakeClouds) before it is compiled");
         const bool noExtinction = !(float(largest(medium.sigmaT)) > 0.0f);
-        if (medium.density && medium.density->volume.channels != 1)
-            throw InputError(medium.density->where,
-                             fmt::format("{}: sigma_t must be a grid of one channel (colour comes from albedo or a "
-                                         "constant sigma_t); got {} channels",
-                                         nameOf(medium), medium.density->volume.channels));
-        const bool noDensity = medium.density && medium.density->volume.density.maximum() == 0.0f;
+        const bool noDensity = medium.density && largestValue(medium.density->volume) == 0.0f;
         empty.push_back(noExtinction || noDensity);
         if (empty.back())
             notes.push_back(fmt::format("{} was dropped: its {} is zero", nameOf(medium),
@@ -167,15 +173,21 @@ void compileMedia(std::span<const MediumDescription* const> media, const glm::dv
     if (media.size() > shared::kMaxMedia)
         throw InputError(media[shared::kMaxMedia]->where,
                          fmt::format("a scene may use at most {} media; got {}", shared::kMaxMedia, media.size()));
-    const DensityPlan plan = planStorage(media, memoryLimitBytes);
+    std::vector<std::optional<ExtinctionGrid>> extinctions;
+    for (const MediumDescription* medium : media) {
+        extinctions.emplace_back();
+        if (medium->density) extinctions.back().emplace(medium->density->volume);
+    }
+    const DensityPlan plan = planStorage(media, extinctions, memoryLimitBytes);
     scene.density.reserve(plan.voxels);
     scene.brickTable.reserve(plan.tableEntries);
-    for (const MediumDescription* medium : media) {
+    for (std::size_t i = 0; i < media.size(); ++i) {
+        const MediumDescription* medium = media[i];
         shared::Medium record{};
         writeExtinction(*medium, record);
         compilePhase(medium->phase, nameOf(*medium), record, scene);
         writeAlbedo(*medium, worldOrigin, record, scene);
-        writeDensity(*medium, worldOrigin, plan.bricked, record, scene);
+        writeDensity(*medium, extinctions[i] ? &*extinctions[i] : nullptr, worldOrigin, plan.bricked, record, scene);
         scene.constants.media[scene.constants.mediumCount++] = record;
     }
 }

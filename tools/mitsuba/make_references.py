@@ -32,6 +32,7 @@ SCENES = {
     "furnace": (BENCHMARK / "furnace.xml", 64),
     "hetero_sigmat": (REFERENCES / "hetero_sigmat.xml", 64),
     "homo_null": (REFERENCES / "homo_null.xml", 64),
+    "color_density": (REFERENCES / "color_density.xml", 64),
 }
 TARGET_ERROR = 5e-4  # standard error of the image mean, relative
 MINIMUM_SEEDS = 32
