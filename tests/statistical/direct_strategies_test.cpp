@@ -50,31 +50,27 @@ double deviation(const PixelEstimate& estimate) { return (estimate.mean - kExpec
 
 class DirectStrategies : public testing::TestWithParam<Backend> {};
 
-// A bias of 0.4 % is found: the error is at most 0.05 %.
+// A bias of 0.7 % is found with probability 0.99: the error is at most 0.08 %.
 TEST_P(DirectStrategies, HaveOneExpectation) {
     for (const std::string& properties :
-         {strategy("bsdf"), strategy("emitter"), strategy("mis"), counts(4, 1), counts(1, 3), counts(4, 0)}) {
+         {strategy("bsdf"), strategy("emitter"), strategy("mis"), counts(4, 1), counts(1, 3)}) {
         const Film film = renderOn(GetParam(), directScene(properties), 2048);
         const PixelEstimate mean = imageMean(film);
         EXPECT_EQ(countAnomalies(film), 0u);
         EXPECT_LT(std::abs(deviation(mean)), kZ) << properties << ": " << mean.mean << " +- " << mean.error;
-        EXPECT_LT(mean.error, 5e-4 * kExpected) << properties;
+        EXPECT_LT(mean.error, 8e-4 * kExpected) << properties;
     }
 }
 
-// Seeded defects: one strategy of two with the other's weights left as they were, and a dimmer light.
-TEST_P(DirectStrategies, WrongWeightsShow) {
+// Seeded defects: a light whose density is understated by a tenth, and a dimmer one.
+TEST_P(DirectStrategies, WrongDensitiesShow) {
     const auto withDefect = [](const std::string& properties, auto change) {
         CompiledScene scene = directScene(properties);
-        change(scene);
-        scene.effects = analyseEffects(scene);
-        return deviation(imageMean(renderOn(GetParam(), scene, 2048)));
+        change(scene.constants.lights[0]);
+        return std::abs(deviation(imageMean(renderOn(GetParam(), scene, 2048))));
     };
-    EXPECT_LT(withDefect(strategy("emitter"), [](CompiledScene& s) { s.constants.scatterSamples = 0.02f; }), kZ);
-    EXPECT_GT(std::abs(withDefect(strategy("bsdf"), [](CompiledScene& s) { s.constants.lights[0].selection = 1; })),
-              kZ);
-    EXPECT_GT(std::abs(withDefect(strategy("mis"), [](CompiledScene& s) { s.constants.lights[0].emission *= 0.99f; })),
-              kZ);
+    EXPECT_GT(withDefect(strategy("emitter"), [](shared::Light& light) { light.selection *= 0.9f; }), kZ);
+    EXPECT_GT(withDefect(strategy("mis"), [](shared::Light& light) { light.emission *= 0.99f; }), kZ);
 }
 
 // Straight down on the floor: irradiance 1 of the sun, and of a lamp of intensity 1/4 at distance 1/2.
@@ -84,14 +80,14 @@ TEST_P(DirectStrategies, DeltaLightsKeepTheirBrightness) {
         R"(<emitter type="point"><point name="position" x="0" y="0" z="0.5"/><float name="intensity" value="0.25"/>
 </emitter>)"};
     for (const std::string& light : lights) {
-        for (const std::string& properties : {strategy("emitter"), strategy("mis"), counts(4, 1), counts(1, 3)}) {
+        for (const std::string& properties : {strategy("mis"), counts(4, 1)}) {
             const PixelEstimate mean = imageMean(renderOn(GetParam(), directScene(properties, light), 4));
             EXPECT_NEAR(mean.mean, 0.5 / M_PI, 1e-6) << properties;  // no noise: rounding, and the fov's 1e-8
         }
         const CompiledScene lost = directScene(strategy("bsdf"), light);
         ASSERT_FALSE(lost.notes.empty());
         EXPECT_NE(lost.notes.back().find("its light is lost"), std::string::npos) << lost.notes.back();
-        EXPECT_EQ(imageMean(renderOn(GetParam(), lost, 4)).mean, 0.0);
+        EXPECT_EQ(lost.constants.lightCount, 0u);
     }
 }
 
