@@ -58,7 +58,7 @@ std::vector<BadText> badSurfaces() {
 
 std::vector<BadText> badStrategies() {
     const auto directOf = [](const std::string& properties) {
-        return sceneOf("<integrator type=\"direct\">" + properties + "</integrator>");
+        return sceneOf("", "<integrator type=\"direct\">" + properties + "</integrator>" + kSensor);
     };
     return {
         {"UnknownStrategy", directOf("<string name=\"strategy\" value=\"@@brdf\"/>"), {"bsdf", "emitter", "mis"}},

@@ -117,7 +117,7 @@ TEST_P(ColorDensity, ShadowRaysSeeEachChannelsTransmittance) {
     };
     replace(R"(name="fov" value="40")", R"(name="fov" value="0.001")");
     replace(R"(target="0, 0, 0")", R"(target="0.2, 0.1, -3")");
-    const Film film = renderOn(GetParam(), compileText(text, {32, 32}), 64);
+    const Film film = renderOn(GetParam(), compileText(text, {32, 32}), 256);
     const glm::dvec3 toSun = glm::normalize(glm::dvec3(-0.2, -0.1, 1));
     for (int c = 0; c < 3; ++c) {
         const double expected = 0.5 / M_PI * toSun.z * transmittance({0.2, 0.1, -3}, toSun, c);

@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(
                     MitsubaReference{"furnace", "../shared/benchmark/furnace.xml", 16, 0.003},
                     MitsubaReference{"hetero_sigmat", "tests/references/hetero_sigmat.xml", 64, 0.003},
                     MitsubaReference{"homo_null", "tests/references/homo_null.xml", 64, 0.003},
-                    MitsubaReference{"color_density", "tests/references/color_density.xml", 64, 0.003}),
+                    MitsubaReference{"color_density", "tests/references/color_density.xml", 128, 0.005}),
     [](const auto& info) { return info.param.name; });
 
 class MitsubaTestScene : public testing::TestWithParam<const char*> {};
