@@ -22,6 +22,11 @@ constexpr double kPi = std::numbers::pi;
 
 bool isBlack(const glm::vec3& rgb) { return rgb == glm::vec3(0.0f); }
 
+bool isDelta(const EmitterDescription& emitter) {
+    using Type = EmitterDescription::Type;
+    return emitter.type == Type::Directional || emitter.type == Type::Point;
+}
+
 /// Radius of a sphere around everything that light can fall on; 1 when there is nothing.
 double sceneRadius(std::span<const KeptShape> shapes) {
     glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
@@ -43,7 +48,8 @@ public:
                   CompiledScene& scene)
         : shapes_(shapes),
           geometry_(geometry),
-          sampleEveryLight_(sampleEveryLight),
+          sampleEveryLight_(sampleEveryLight || scene.constants.scatterSamples == 0.0f),
+          sampleNoLight_(scene.constants.emitterSamples == 0.0f),
           radius_(sceneRadius(shapes)),
           scene_(scene) {
         scene.constants.environment = shared::kNone;
@@ -80,6 +86,7 @@ public:
         if (isBlack(light.emission)) return noteBlack(name);
         light.primitive = shared::kNone;
         const double flux = luminance(light.emission);
+        if (sampleNoLight_ && isDelta(emitter)) return noteLost(name);
         switch (emitter.type) {
             case EmitterDescription::Type::Directional:
                 light.type = shared::kLightDirectional;
@@ -165,7 +172,12 @@ private:
 
     void noteBlack(const std::string& name) { scene_.notes.push_back(fmt::format("{}: its light is black", name)); }
 
-    void append(const Pending& light, const SourceLocation& where) {
+    void noteLost(const std::string& name) {
+        scene_.notes.push_back(fmt::format("{}: its light is lost, for scattering alone never finds it", name));
+    }
+
+    void append(Pending light, const SourceLocation& where) {
+        if (sampleNoLight_) light.power = 0.0;
         if (pending_.size() == shared::kMaxLights)
             throw InputError(where, fmt::format("a scene may have at most {} lights", shared::kMaxLights));
         pending_.push_back(light);
@@ -207,6 +219,7 @@ private:
     std::span<const KeptShape> shapes_;
     std::span<const EmissiveGeometry> geometry_;
     bool sampleEveryLight_;
+    bool sampleNoLight_;  ///< scattering alone finds light
     double radius_;
     CompiledScene& scene_;
     std::vector<Pending> pending_;

@@ -48,6 +48,9 @@ Sky sky;
 uint maxDepth;
 uint rouletteDepth;
 uint triangleCount;
+float emitterSamples;
+float scatterSamples;
+uint depthLayers;
 
 // Shader only: fills the copies; every kernel calls it first.
 void loadScene() {
@@ -71,6 +74,9 @@ void loadScene() {
     maxDepth = scene.maxDepth;
     rouletteDepth = scene.rouletteDepth;
     triangleCount = scene.triangleCount;
+    emitterSamples = scene.emitterSamples;
+    scatterSamples = scene.scatterSamples;
+    depthLayers = scene.depthLayers;
 }
 
 Shape shapeAt(uint index) {

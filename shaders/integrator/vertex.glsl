@@ -2,16 +2,31 @@
 #ifndef INTEGRATOR_VERTEX_GLSL
 #define INTEGRATOR_VERTEX_GLSL
 
+// Adds what an event brought, also to the layer of the path's scatterings, which leaves out what is not finite.
+void addRadiance(inout Path p, vec3 gain) {
+    p.radiance += gain;
+    if (hasDepthLayers && depthLayers > 0u) {
+        bool bad = any(isnan(gain)) || any(isinf(gain));
+        uint layer = firstLayer + min(p.vertex, depthLayers - 1u);
+        vec3 high = layers[layer].sumHigh, low = layers[layer].sumLow;
+        addCompensated(high, low, bad ? vec3(0.0) : gain);
+        layers[layer].sumHigh = high;
+        layers[layer].sumLow = low;
+    }
+}
+
 // Emission of the surface hit, weighted against next-event estimation at the vertex before.
-void addEmission(inout Path p, Surface surface, uint lightIndex) {
+void addEmission(Path p, Surface surface, uint lightIndex, inout vec3 gain) {
     if (lightIndex == kNone || p.vertex >= maxDepth) return;
     Light light = lightAt(lightIndex);
     float cosine = lightCosine(light, surface.geometricNormal, -p.ray.direction);
-    float weight = balanceHeuristic(p.lastPdf, lightPdf(light, p.ray.origin, p.hit.t, cosine));
-    if (cosine > 0.0) p.radiance += spectralBeta(p) * light.emission * weight;
+    float pdf = lightPdf(light, p.ray.origin, p.hit.t, cosine);
+    if (hasStrategyWeights) pdf *= emitterSamples;
+    float weight = emissionWeight(p.lastPdf, pdf);
+    if (cosine > 0.0) gain = spectralBeta(p) * light.emission * weight;
 }
 
-void addEnvironment(inout Path p) {
+void addEnvironment(Path p, inout vec3 gain) {
     if (environmentLight == kNone || p.vertex >= maxDepth) return;
     vec3 radiance = environmentRadiance;
     float pdf = kInvFourPi;
@@ -26,9 +41,12 @@ void addEnvironment(inout Path p) {
         pdf = skyPdf(point);
     }
     float weight = 1.0;
-    if (hasEnvironmentSampling)
-        weight = balanceHeuristic(p.lastPdf, pdf * scene.lights[environmentLight].selection);
-    p.radiance += spectralBeta(p) * radiance * weight;
+    if (hasEnvironmentSampling) {
+        pdf *= scene.lights[environmentLight].selection;
+        if (hasStrategyWeights) pdf *= emitterSamples;
+        weight = emissionWeight(p.lastPdf, pdf);
+    }
+    gain = spectralBeta(p) * radiance * weight;
 }
 
 // What a vertex scatters with, for the lanes that have one.
@@ -50,7 +68,7 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
     bool alive = p.vertex < maxDepth && largest > 0.0 && toUniform(word.w) < survival;
     p.beta /= survival;
     vec4 next = sampleScatterer(v.scatterer, vec2(toUniform(word.x), toUniform(word.y)));
-    p.lastPdf = next.w;
+    p.lastPdf = hasStrategyWeights ? next.w * scatterSamples : next.w;
     p.nextDirection = next.xyz;
     p.nextExponential = uvec2(word.z, spareBits(word.x, word.y, word.w));
     bool shadow = false;
@@ -69,8 +87,8 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
 }
 
 // An opaque surface ended the flight: emission, then what scatters.
-Vertex surfaceVertex(inout Path p, Surface surface, Shape shape) {
-    if (hasAreaLights) addEmission(p, surface, shape.light);
+Vertex surfaceVertex(inout Path p, Surface surface, Shape shape, inout vec3 gain) {
+    if (hasAreaLights) addEmission(p, surface, shape.light, gain);
     vec3 wo = -p.ray.direction;
     vec3 normal = surface.shadingNormal;
     if (hasDoubleSided && (shape.flags & kShapeTwoSided) != 0u && dot(normal, wo) < 0.0) normal = -normal;
@@ -105,18 +123,20 @@ uint arrive(inout Path p, inout Vertex vertex) {
     Shape shape = shapeAt(miss ? 0u : surface.shape);
     bool boundary = !miss && (shape.flags & kShapeNull) != 0u;
     uint next = kFinish;
+    vec3 gain = vec3(0.0);
     if (boundary) {
         p.ray.inside = crossBoundary(p.ray, p.hit, surface.shape, shape.exterior, surface.geometricNormal);
         p.ray.tMin = p.hit.t;
         next = kCross;
     } else if (p.segment.shadow) {
-        if (miss) p.radiance += p.pending * p.segment.weight;
+        if (miss) gain = p.pending * p.segment.weight;
         next = kFlight;
     } else if (miss) {
-        if (hasEnvironment) addEnvironment(p);
+        if (hasEnvironment) addEnvironment(p, gain);
     } else if (hasSurfaces) {
-        vertex = surfaceVertex(p, surface, shape);
+        vertex = surfaceVertex(p, surface, shape, gain);
     }
+    addRadiance(p, gain);
     return next;
 }
 

@@ -56,6 +56,28 @@ std::vector<BadText> badSurfaces() {
     };
 }
 
+std::vector<BadText> badStrategies() {
+    const auto directOf = [](const std::string& properties) {
+        return sceneOf("", "<integrator type=\"direct\">" + properties + "</integrator>" + kSensor);
+    };
+    return {
+        {"UnknownStrategy", directOf("<string name=\"strategy\" value=\"@@brdf\"/>"), {"bsdf", "emitter", "mis"}},
+        {"StrategyAndCounts",
+         directOf("<string name=\"strategy\" value=\"@@mis\"/><integer name=\"bsdf_samples\" value=\"2\"/>"),
+         {"not both"}},
+        {"ShadingAndCounts",
+         directOf("<integer name=\"shading_samples\" value=\"@@2\"/><integer name=\"bsdf_samples\" value=\"2\"/>"),
+         {"not both"}},
+        {"NoSampleAtAll",
+         directOf("<integer name=\"bsdf_samples\" value=\"0\"/><integer name=\"emitter_samples\" value=\"@@0\"/>"),
+         {"must be at least 1"}},
+        {"NegativeSamples", directOf("<integer name=\"emitter_samples\" value=\"@@-1\"/>"), {"[0, 1000000]", "got -1"}},
+        {"DirectHasNoDepth", directOf("@@<integer name=\"max_depth\" value=\"3\"/>"), {"unknown property"}},
+        {"TooManyDepthLayers", integratorOf("<integer name=\"depth_layers\" value=\"@@65\"/>"), {"[0, 64]", "got 65"}},
+        {"StrategyOfAPath", integratorOf("@@<string name=\"strategy\" value=\"mis\"/>"), {"unknown property"}},
+    };
+}
+
 std::vector<BadText> badLights() {
     return {
         {"NegativeRadiance",
@@ -249,6 +271,7 @@ TEST_P(ScenePropertyError, NamesTheCauseAndItsPlace) { expectRefused(GetParam())
 INSTANTIATE_TEST_SUITE_P(Values, ScenePropertyError, testing::ValuesIn(badValues()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Surfaces, ScenePropertyError, testing::ValuesIn(badSurfaces()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Lights, ScenePropertyError, testing::ValuesIn(badLights()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(Strategies, ScenePropertyError, testing::ValuesIn(badStrategies()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Skies, ScenePropertyError, testing::ValuesIn(badSkies()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Media, ScenePropertyError, testing::ValuesIn(badMedia()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Phases, ScenePropertyError, testing::ValuesIn(badPhases()), nameOfBadText);

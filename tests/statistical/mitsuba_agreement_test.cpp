@@ -29,7 +29,8 @@ INSTANTIATE_TEST_SUITE_P(
                     MitsubaReference{"hetero_sigmat", "tests/references/hetero_sigmat.xml", 64, 0.003},
                     MitsubaReference{"homo_null", "tests/references/homo_null.xml", 64, 0.003},
                     MitsubaReference{"hdr_sky_only", "../shared/benchmark/hdr_sky_only.xml", 64, 0.001, false},
-                    MitsubaReference{"environment_floor", "tests/references/environment_floor.xml", 1024, 0.001}),
+                    MitsubaReference{"environment_floor", "tests/references/environment_floor.xml", 1024, 0.001},
+                    MitsubaReference{"color_density", "tests/references/color_density.xml", 128, 0.005}),
     [](const auto& info) { return info.param.name; });
 
 class TexturedScene : public testing::TestWithParam<MitsubaReference> {};

@@ -101,6 +101,21 @@ std::string albedoGrid(const TemporaryFolder& folder) {
                        (folder.path() / "albedo.vol").string());
 }
 
+/// The extinction of a coloured cloud over [-1, 1]^3, a value a channel in each of 11 x 9 x 7 voxels.
+std::string colorCloud(const TemporaryFolder& folder) {
+    Volume volume;
+    volume.channels = 3;
+    volume.color.resolution = {11, 9, 7};
+    for (int i = 0; i < 3 * 11 * 9 * 7; ++i) volume.color.values.push_back(float(i * 37 % 101) / 100.0f);
+    writeVolume(folder.path() / "color.vol", volume);
+    return fmt::format(
+        R"(<medium type="heterogeneous" id="cloud"><float name="scale" value="4"/>
+    <volume name="sigma_t" type="gridvolume"><string name="filename" value="{}"/>
+        <transform name="to_world"><translate x="-0.5" y="-0.5" z="-0.5"/><scale value="2"/></transform></volume>
+    <rgb name="albedo" value="0.99, 0.98, 0.97"/><phase type="hg"/></medium>)",
+        (folder.path() / "color.vol").string());
+}
+
 /// A ball of 80 triangles of unit radius, with smooth vertex normals unless `flat`.
 std::string ball(const TemporaryFolder& folder, bool flat, const std::string& transform, const std::string& content) {
     std::string text;
@@ -144,6 +159,27 @@ std::vector<NamedScene> environmentScenes(glm::uvec2 size) {
             {"environment map, fog", compiled(kFloor + environmentMap() + fog)},
             {"environment map, lamp", compiled(kFloor + environmentMap() + kQuadLight)},
             {"empty environment map", compiled(environmentMap())}};
+}
+
+/// What integrators other than the plain path tracers do, and a grid with a value a channel.
+std::vector<NamedScene> furtherScenes(const TemporaryFolder& folder, glm::uvec2 size) {
+    const SceneFrame fourToOne{
+        .integrator = R"(<integrator type="direct"><integer name="emitter_samples" value="4"/></integrator>)"};
+    const SceneFrame layered{.integrator =
+                                 R"(<integrator type="volpath"><integer name="depth_layers" value="3"/></integrator>)"};
+    const std::string meshAndFloor =
+        kFloor + ball(folder, false, R"(<scale value="0.5"/><translate x="-1.3" y="-0.4" z="0.8"/>)", kTwoSided);
+    return {{"direct lighting, four light samples to one",
+             compileText(sceneXml(meshAndFloor + kSky + kSun + kQuadLight, fourToOne), size)},
+            {"cloud of three densities, fog, sky, sun",
+             compileText(sceneXml(kSky + kSun + colorCloud(folder) + around("cloud", "cube") +
+                                  homogeneous("small", "4, 2, 1", 0) +
+                                  around("small", "sphere", R"(<scale value="0.4"/><translate x="1.5"/>)")),
+                         size)},
+            {"layers by depth, fog, quad light",
+             compileText(
+                 sceneXml(kFloor + kSky + kQuadLight + homogeneous("fog", "1.5", 0.6) + around("fog", "cube"), layered),
+                 size)}};
 }
 
 CompiledScene makeChromatic(CompiledScene scene) {
@@ -211,6 +247,7 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
     };
     std::ranges::move(phaseScenes(size), std::back_inserter(scenes));
     std::ranges::move(environmentScenes(size), std::back_inserter(scenes));
+    std::ranges::move(furtherScenes(folder, size), std::back_inserter(scenes));
     return scenes;
 }
 

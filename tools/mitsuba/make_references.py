@@ -58,6 +58,7 @@ SCENES = {
     "environment_floor": Scene(REFERENCES / "environment_floor.xml", 256, 32),
     "homo_null_envmap": Scene(MITSUBA_TESTS / "test_homo_null_envmap_volpath.xml", 64, 32),
     "hetero_sigmat_envmap": Scene(MITSUBA_TESTS / "test_hetero_sigmat_volpath.xml", 64, 32),
+    "color_density": Scene(REFERENCES / "color_density.xml", 64),
 }
 TARGET_ERROR = 5e-4  # standard error of the image mean, relative
 MINIMUM_SEEDS = 32

@@ -65,6 +65,7 @@ struct Medium {
     const float* majorants = nullptr;
     const glm::vec4* albedoVoxels = nullptr;  ///< null without an albedo grid
     bool homogeneous, grey;
+    bool colored;  ///< three densities a voxel, interleaved
 };
 
 template <typename Real>
@@ -136,7 +137,8 @@ Medium<Real> viewMedium(const CompiledScene& scene, const shared::Medium& m) {
     v.cells = m.cells;
     v.albedoResolution = m.albedoResolution;
     v.homogeneous = (m.flags & shared::kMediumHomogeneous) != 0;
-    v.grey = m.sigmaRatio == glm::vec3(1.0f);
+    v.colored = (m.flags & shared::kMediumColorDensity) != 0;
+    v.grey = m.sigmaRatio == glm::vec3(1.0f) && !v.colored;
     if (!v.homogeneous) {
         const bool bricked = (m.flags & shared::kMediumBricked) != 0;
         v.density = scene.density.data() + (bricked ? 0 : m.voxelOffset);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/integrator/direct_lighting.h"
+#include "reference/integrator/film.h"
 
 namespace parhelion::reference {
 
@@ -11,8 +12,10 @@ struct PathState {
     Residual<Real> residual;
     Throughput<Real> throughput{};
     Vec3<Real> radiance{0};
-    Real lastPdf = kInfinity<Real>;  ///< of the ray's direction; infinite from the camera: no light sample competes
+    Real lastPdf = kInfinity<Real>;  ///< of the ray's direction, times the samples of scattering; infinite from the
+                                     ///< camera: no light sample competes
     std::uint32_t scatterings = 0;
+    shared::LayerPixel* layers = nullptr;  ///< the pixel's, if the film has any
 };
 
 /// Where a path's flight ends.
@@ -24,13 +27,24 @@ struct FlightEnd {
     Real t = 0;                            ///< Medium
 };
 
+/// Adds what a path of some scatterings brings. What is not finite is left to the sample's sum, which reports it.
+template <typename Real>
+void addRadiance(const SceneView<Real>& scene, std::uint32_t scatterings, const Vec3<Real>& gain,
+                 PathState<Real>& state) {
+    state.radiance += gain;
+    if (!state.layers || !std::isfinite(gain.x + gain.y + gain.z)) return;
+    shared::LayerPixel& layer = state.layers[std::min(scatterings, scene.constants.depthLayers - 1)];
+    for (int c = 0; c < 3; ++c) addCompensated(layer.sumHigh[c], layer.sumLow[c], gain[c]);
+}
+
 /// Adds emission met at the end of a flight, weighted against light sampling at its start.
 template <typename Real>
 void addEmission(const SceneView<Real>& scene, const Light<Real>& light, const Vec3<Real>& emission, Real distance,
                  const Vec3<Real>& normal, PathState<Real>& state) {
     const Real pdf = lightPdf(scene, light, state.ray.origin, state.ray.direction, distance, normal);
-    const Real mis = balanceHeuristic(state.lastPdf, pdf);
-    state.radiance += state.throughput.beta * emission * (mis / state.throughput.meanR());
+    const Real mis = emissionWeight(state.lastPdf, pdf * Real(scene.constants.emitterSamples));
+    const Vec3<Real> gain = state.throughput.beta * emission * (mis / state.throughput.meanR());
+    addRadiance(scene, state.scatterings, gain, state);
 }
 
 /// Adds what comes from beyond the scene.
@@ -68,11 +82,12 @@ bool scatter(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex, c
         if (!(u < survival)) return false;
         throughput.beta /= survival;
     }
-    state.radiance += throughput.beta * estimateDirect(path, vertex) / throughput.meanR();
+    const Vec3<Real> gain = throughput.beta * estimateDirect(path, vertex) / throughput.meanR();
+    addRadiance(path.scene, vertex.index, gain, state);
     const Vec2<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y)};
     const DirectionSample<Real> next = sampleScatterer(vertex, u);
     state.ray = spawnRay(vertex, next.direction);
-    state.lastPdf = next.pdf;
+    state.lastPdf = next.pdf * Real(path.scene.constants.scatterSamples);
     state.residual = {exponential<Real>(words.z, spareBits(words.x, words.y, words.w))};
     state.scatterings = vertex.index;
     return true;
