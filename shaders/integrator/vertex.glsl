@@ -8,7 +8,7 @@ void addEmission(inout Path p, Surface surface, uint lightIndex) {
     Light light = lightAt(lightIndex);
     float cosine = lightCosine(light, surface.geometricNormal, -p.ray.direction);
     float weight = balanceHeuristic(p.lastPdf, lightPdf(light, p.ray.origin, p.hit.t, cosine));
-    if (cosine > 0.0) p.radiance += spectralBeta(p) * light.emission * weight;
+    if (cosine > 0.0) p.radiance += spectralBeta(p) * emissionAt(light, surface.uv) * weight;
 }
 
 void addEnvironment(inout Path p) {
@@ -72,7 +72,7 @@ Vertex surfaceVertex(inout Path p, Surface surface, Shape shape) {
     p.vertexOffset = surface.offset;
     p.vertexLast = p.hit.primitive;
     p.vertexInside = p.ray.inside;
-    return Vertex(dot(normal, wo) > 0.0, Scatterer(normal, wo, noPhase(), true), shape.reflectance);
+    return Vertex(dot(normal, wo) > 0.0, Scatterer(normal, wo, noPhase(), true), reflectanceAt(shape, surface.uv));
 }
 
 // A real collision at the segment's t.

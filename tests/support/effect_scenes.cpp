@@ -7,6 +7,7 @@
 
 #include "compile/compile_scene.h"
 #include "compile/density_storage.h"
+#include "image/image.h"
 #include "support/hand_scene.h"
 #include "support/render_scene.h"
 #include "volume/volume_file.h"
@@ -126,6 +127,56 @@ std::vector<NamedScene> phaseScenes(glm::uvec2 size) {
                       ballOf("c", kPhaseTable, "y=\"0.8\"") + ballOf("d", "<phase type=\"hg\"/>", "y=\"-0.8\""))}};
 }
 
+const std::string kCheckers =
+    R"(<texture type="checkerboard" name="reflectance"><rgb name="color0" value="0.8, 0.7, 0.5"/>
+    <transform name="to_uv"><scale x="6" y="5"/></transform></texture>)";
+
+/// A bitmap of 8 x 4 colours.
+std::string bitmapTexture(const TemporaryFolder& folder, const std::string& role, const std::string& more) {
+    Image image{.size = {8, 4}, .channels = {}, .attributes = {}};
+    for (const char* channel : {"B", "G", "R"})
+        for (int i = 0; i < 32; ++i) image.channels[channel].push_back(float((i * 37 + 11 * channel[0]) % 64) / 64.0f);
+    writeExr(folder.path() / "bitmap.exr", image);
+    return fmt::format(R"(<texture type="bitmap" name="{}"><string name="filename" value="{}"/>{}</texture>)", role,
+                       (folder.path() / "bitmap.exr").string(), more);
+}
+
+/// Textures on every kind of shape, as reflectance and as radiance.
+std::vector<NamedScene> texturedScenes(const TemporaryFolder& folder, glm::uvec2 size) {
+    const auto compiled = [size](const std::string& body) { return compileText(sceneXml(body), size); };
+    const auto bitmap = [&](const std::string& more) { return bitmapTexture(folder, "reflectance", more); };
+    const auto diffuse = [](const std::string& texture) { return "<bsdf type=\"diffuse\">" + texture + "</bsdf>"; };
+    const std::string floor = R"(<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="-90"/>
+    <scale value="4"/><translate y="-1"/></transform>)" +
+                              diffuse(kCheckers) + "</shape>";
+    const std::string ball_ = R"(<shape type="sphere"><transform name="to_world"><rotate x="1" angle="60"/>
+    <scale value="0.8"/><translate x="-1.2"/></transform>)" +
+                              diffuse(bitmap(R"(<string name="wrap_mode" value="mirror"/>
+    <transform name="to_uv"><scale x="3" y="2"/></transform>)")) +
+                              "</shape>";
+    const std::string block =
+        R"(<shape type="cube"><transform name="to_world"><rotate y="1" angle="30"/><scale value="0.5"/>
+    <translate x="0.9" y="-0.4"/></transform><bsdf type="twosided">)" +
+        diffuse(bitmap(R"(<string name="wrap_mode" value="clamp"/>
+    <string name="filter_type" value="nearest"/>)")) +
+        "</bsdf></shape>";
+    const auto lamp = [&](const std::string& shape) {
+        return shape + "<emitter type=\"area\">" +
+               bitmapTexture(folder, "radiance", R"(<transform name="to_uv"><scale value="2"/></transform>)") +
+               "</emitter></shape>";
+    };
+    const std::string quadLamp = lamp(R"(<shape type="rectangle"><transform name="to_world"><scale value="0.8"/>
+    <rotate x="1" angle="90"/><translate x="0.3" y="1.7"/></transform>)");
+    const std::string ballLamp = lamp(R"(<shape type="sphere"><point name="center" x="-1.4" y="0.9" z="0.4"/>
+    <float name="radius" value="0.4"/>)");
+    const std::string meshLamp = lamp(R"(<shape type="cube"><transform name="to_world"><scale value="0.3"/>
+    <rotate x="0.6" y="0.8" angle="40"/><translate x="1.4" y="1"/></transform>)");
+    return {{"textured shapes, sky", compiled(kSky + floor + ball_ + block)},
+            {"textured lights, textured mesh, fog",
+             compiled(floor + quadLamp + ballLamp + meshLamp + fogScattering("fog", "") + around("fog", "cube") +
+                      ball(folder, false, "<scale value=\"0.5\"/><translate z=\"1.5\"/>", diffuse(bitmap(""))))}};
+}
+
 CompiledScene makeChromatic(CompiledScene scene) {
     scene.constants.media[0].sigmaRatio = {1.0f, 0.7f, 0.45f};
     scene.effects = analyseEffects(scene);
@@ -195,6 +246,7 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
          compiled(kFloor + kTwoSidedQuad + kSphereLight + greyBox + ball(folder, true, smallBall, kTwoSidedMesh))},
     };
     std::ranges::move(phaseScenes(size), std::back_inserter(scenes));
+    std::ranges::move(texturedScenes(folder, size), std::back_inserter(scenes));
     return scenes;
 }
 

@@ -88,11 +88,12 @@ bool surfaceVertex(const PathContext<Real, Trace>& path, const Hit<Real>& hit, V
     vertex.surface = surfaceAt(scene, state.ray, hit);
     vertex.position = vertex.surface.position;
     vertex.primitive = hit.primitive;
-    const Vec3<Real> reflectance(shape.reflectance);
+    const Vec3<Real> reflectance = reflectanceAt(scene.source, shape, vertex.surface.uv);
     vertex.strength = maxComponent(reflectance);
     const Vec3<Real>& normal = vertex.surface.geometricNormal;
     if (shape.light != kNone && lightCosine(scene.lights[shape.light], normal, vertex.wo) > 0)
-        addEmission(scene, scene.lights[shape.light], scene.lights[shape.light].emission, hit.t, normal, state);
+        addEmission(scene, scene.lights[shape.light], emissionAt(scene, scene.lights[shape.light], vertex.surface.uv),
+                    hit.t, normal, state);
     if (!(glm::dot(normal, vertex.wo) > 0)) {
         if ((shape.flags & shared::kShapeTwoSided) == 0) return false;
         vertex.surface.geometricNormal = -vertex.surface.geometricNormal;
