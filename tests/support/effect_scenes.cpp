@@ -177,6 +177,21 @@ std::vector<NamedScene> texturedScenes(const TemporaryFolder& folder, glm::uvec2
                       ball(folder, false, "<scale value=\"0.5\"/><translate z=\"1.5\"/>", diffuse(bitmap(""))))}};
 }
 
+/// Skies of every kind.
+std::vector<NamedScene> skyScenes(glm::uvec2 size) {
+    const std::string greyBox = homogeneous("fog", "1.5", 0.6) + around("fog", "cube");
+    const std::string isotropicCloud = cloud("cloud", kWhite, "isotropic") + around("cloud", "cube");
+    CompileOptions everyLight;
+    everyLight.sampleEveryLight = true;
+    const auto compiled = [size](const std::string& body) { return compileText(sceneXml(body), size); };
+    return {
+        {"sky sampled, fog", compileText(sceneXml(kSky + kSphereLight + greyBox), size, everyLight)},
+        {"empty sky", compiled(kSky)},
+        {"gradient sky, fog", compiled(kFloor + gradientSky("") + greyBox)},
+        {"starry sky, cloud, sun", compiled(kFloor + gradientSky(kStars) + kSun + isotropicCloud)},
+    };
+}
+
 CompiledScene makeChromatic(CompiledScene scene) {
     scene.constants.media[0].sigmaRatio = {1.0f, 0.7f, 0.45f};
     scene.effects = analyseEffects(scene);
@@ -214,8 +229,6 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
     const std::string smallFog =
         homogeneous("small", "4, 2, 1", 0) + around("small", "sphere", R"(<scale value="0.4"/><translate x="1.5"/>)");
     const std::string smallBall = R"(<scale value="0.5"/><translate x="-1.3" y="-0.4" z="0.8"/>)";
-    CompileOptions everyLight;
-    everyLight.sampleEveryLight = true;
     const auto compiled = [size](const std::string& body, const SceneFrame& frame = {}) {
         return compileText(sceneXml(body, frame), size);
     };
@@ -238,13 +251,10 @@ std::vector<NamedScene> effectScenes(const TemporaryFolder& folder, glm::uvec2 s
          compiled(kSky + homogeneous("outer", "1.5", 0) + around("outer", "cube") + homogeneous("inner", "5", 0.5) +
                   R"(<shape type="sphere"><float name="radius" value="0.5"/><bsdf type="null"/>
     <ref name="interior" id="inner"/><ref name="exterior" id="outer"/></shape>)")},
-        {"sky sampled, fog", compileText(sceneXml(kSky + kSphereLight + greyBox), size, everyLight)},
-        {"empty sky", compiled(kSky)},
-        {"gradient sky, fog", compiled(kFloor + gradientSky("") + greyBox)},
-        {"starry sky, cloud, sun", compiled(kFloor + gradientSky(kStars) + kSun + isotropicCloud)},
         {"two-sided lights, fog",
          compiled(kFloor + kTwoSidedQuad + kSphereLight + greyBox + ball(folder, true, smallBall, kTwoSidedMesh))},
     };
+    std::ranges::move(skyScenes(size), std::back_inserter(scenes));
     std::ranges::move(phaseScenes(size), std::back_inserter(scenes));
     std::ranges::move(texturedScenes(folder, size), std::back_inserter(scenes));
     return scenes;
