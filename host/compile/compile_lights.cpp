@@ -60,10 +60,13 @@ public:
         const EmissiveGeometry& geometry = geometry_[shapeIndex];
         const bool hasSurface = geometry.primitive != shared::kNone || !geometry.triangles.empty();
         if (!source.radiance || !hasSurface) return;
-        const glm::vec3 radiance = toFloat(*source.radiance, source.where, nameOf(source) + ": radiance");
+        const SurfaceTexture& texture = shapes_[shapeIndex].radiance;
+        const glm::dvec3 tinted = *source.radiance * texture.tint;
+        const glm::vec3 radiance = toFloat(tinted, source.where, nameOf(source) + ": radiance");
         if (isBlack(radiance)) return noteBlack(nameOf(source));
+        const glm::dvec3 mean = texture.index == shared::kNone ? tinted : tinted * texture.mean;
         shared::Light light{};
-        light.texture = shared::kNone;
+        light.texture = texture.index;
         light.emission = radiance;
         const double area = writeSurface(shapeIndex, light);
         if (source.emitsOnBothSides) light.flags |= shared::kLightTwoSided;
@@ -71,7 +74,7 @@ public:
         // From outside, where it would be sampled, a sphere that emits inwards alone is dark.
         const bool inwards = sides == 1.0 && light.type == shared::kLightSphere &&
                              (scene_.shapes[shapeIndex].flags & shared::kShapeFlipNormal) != 0;
-        append({light, inwards ? 0.0 : sides * kPi * area * luminance(radiance), shapeIndex}, source.where);
+        append({light, inwards ? 0.0 : sides * kPi * area * luminance(mean), shapeIndex}, source.where);
     }
 
     void addEmitter(const EmitterDescription& emitter) {

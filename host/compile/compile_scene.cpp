@@ -10,6 +10,7 @@
 #include "compile/compile_geometry.h"
 #include "compile/compile_lights.h"
 #include "compile/compile_media.h"
+#include "compile/compile_textures.h"
 #include "compile/nesting.h"
 
 namespace parhelion {
@@ -64,7 +65,7 @@ public:
         scene.constants.camera.inside = keptOrAround(nesting_.camera);
     }
 
-    std::span<const KeptShape> shapes() const { return kept_; }
+    std::span<KeptShape> shapes() { return kept_; }
     std::span<const MediumDescription* const> media() const { return media_; }
 
 private:
@@ -168,8 +169,9 @@ CompiledScene compileScene(const SceneDescription& description, const CompileOpt
     std::vector<PlacedShape> placed;
     placed.reserve(description.shapes.size());
     for (const ShapeDescription& shape : description.shapes) placed.push_back(placeShape(shape, scene.worldOrigin));
-    const Selection selection(description, placed, scene);
+    Selection selection(description, placed, scene);
     compileMedia(selection.media(), scene.worldOrigin, limit, scene);
+    compileTextures(description, selection.shapes(), scene);
     const std::vector<EmissiveGeometry> emissive = compileGeometry(selection.shapes(), scene);
     noteCoarsePositions(selection, scene);
     compileLights(description, selection.shapes(), emissive, options.sampleEveryLight, scene);

@@ -64,7 +64,7 @@ struct CompiledScene {
     std::vector<float> filterTable;             ///< 257 offsets in pixels; empty for the box filter
     std::vector<shared::Texture> textures;
     std::vector<glm::vec4> textureTexels;      ///< rgb + unused, all bitmaps one after the other
-    std::vector<glm::vec2> triangleUvs;        ///< 3 a triangle; empty where no textured mesh is
+    std::vector<glm::vec2> triangleUvs;        ///< 3 a triangle; empty where no shape is textured
     std::vector<float> phaseTable;             ///< tabulated phase functions, see Medium.phaseOffset
     std::vector<glm::vec4> environmentTexels;  ///< rgb; w: density per steradian of the cell whose corner it is
     std::vector<glm::uvec2> aliasTable;        ///< (threshold, alias): rows, then cells row by row; or the sky's bands

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/read_textures.h"
 #include "scene/transforms.h"
 #include "shared/scene_types.h"
 
@@ -139,7 +140,9 @@ void readEmitter(ReadContext& context, const XmlElement& element) {
 void readAreaEmitter(ReadContext& context, const XmlElement& element, ShapeDescription& shape) {
     PropertyReader reader(context.tree, element);
     if (reader.type() != "area") reader.rejectType({"area"});
-    shape.radiance = reader.color("radiance", 1.0, kNonNegative);
+    const TexturedColor radiance = readTexturedColor(context, reader, "radiance", 1.0, kNonNegative);
+    shape.radiance = radiance.color;
+    shape.radianceTexture = radiance.texture;
     shape.emitsOnBothSides = reader.boolean("two_sided", false);
     readSamplingWeight(context, reader);
     reader.finish();

@@ -40,10 +40,6 @@ std::vector<BadText> badSurfaces() {
         {"ReflectanceAboveOne",
          diffuseOf("<rgb name=\"reflectance\" value=\"@@0.5, 1.25, 0\"/>"),
          {"[0, 1]", "got 1.25"}},
-        {"Texture",
-         diffuseOf(
-             "@@<texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" value=\"a.png\"/></texture>"),
-         {"texture plugin \"bitmap\" is not supported", "<rgb>"}},
         {"UnknownPlugin",
          sceneOf("<shape type=\"@@spere\"/>"),
          {"\"spere\" is not supported", "did you mean \"sphere\"?"}},

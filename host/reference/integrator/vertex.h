@@ -1,22 +1,8 @@
 #pragma once
 
-#include "reference/integrator/direct_lighting.h"
-#include "reference/integrator/film.h"
+#include "reference/integrator/emission.h"
 
 namespace parhelion::reference {
-
-/// A path between two of its vertices.
-template <typename Real>
-struct PathState {
-    Ray<Real> ray;
-    Residual<Real> residual;
-    Throughput<Real> throughput{};
-    Vec3<Real> radiance{0};
-    Real lastPdf = kInfinity<Real>;  ///< of the ray's direction, times the samples of scattering; infinite from the
-                                     ///< camera: no light sample competes
-    std::uint32_t scatterings = 0;
-    shared::LayerPixel* layers = nullptr;  ///< the pixel's, if the film has any
-};
 
 /// Where a path's flight ends.
 template <typename Real>
@@ -26,39 +12,6 @@ struct FlightEnd {
     const Medium<Real>* medium = nullptr;  ///< Medium
     Real t = 0;                            ///< Medium
 };
-
-/// Adds what a path of some scatterings brings. What is not finite is left to the sample's sum, which reports it.
-template <typename Real>
-void addRadiance(const SceneView<Real>& scene, std::uint32_t scatterings, const Vec3<Real>& gain,
-                 PathState<Real>& state) {
-    state.radiance += gain;
-    if (!state.layers || !std::isfinite(gain.x + gain.y + gain.z)) return;
-    shared::LayerPixel& layer = state.layers[std::min(scatterings, scene.constants.depthLayers - 1)];
-    for (int c = 0; c < 3; ++c) addCompensated(layer.sumHigh[c], layer.sumLow[c], gain[c]);
-}
-
-/// Adds emission met at the end of a flight, weighted against light sampling at its start.
-template <typename Real>
-void addEmission(const SceneView<Real>& scene, const Light<Real>& light, const Vec3<Real>& emission, Real distance,
-                 const Vec3<Real>& normal, PathState<Real>& state) {
-    const Real pdf = lightPdf(scene, light, state.ray.origin, state.ray.direction, distance, normal);
-    const Real mis = emissionWeight(state.lastPdf, pdf * Real(scene.constants.emitterSamples));
-    const Vec3<Real> gain = state.throughput.beta * emission * (mis / state.throughput.meanR());
-    addRadiance(scene, state.scatterings, gain, state);
-}
-
-/// Adds what comes from beyond the scene.
-template <typename Real>
-void addEnvironment(const SceneView<Real>& scene, PathState<Real>& state) {
-    if (scene.constants.environment == kNone) return;
-    const Light<Real>& light = scene.lights[scene.constants.environment];
-    const Vec3<Real>& direction = state.ray.direction;
-    Vec3<Real> radiance = light.emission;
-    if (light.type == shared::kLightEnvironmentMap) radiance = environmentAt(scene, direction).radiance;
-    if (light.type == shared::kLightSky)
-        radiance = skyRadiance(scene, SkyPoint<Real>{direction, findStar(scene, direction)});
-    addEmission(scene, light, radiance, kInfinity<Real>, -direction, state);
-}
 
 /// Absorption, roulette, direct light and the next direction at a vertex.
 ///
@@ -104,11 +57,12 @@ bool surfaceVertex(const PathContext<Real, Trace>& path, const Hit<Real>& hit, V
     vertex.surface = surfaceAt(scene, state.ray, hit);
     vertex.position = vertex.surface.position;
     vertex.primitive = hit.primitive;
-    const Vec3<Real> reflectance(shape.reflectance);
+    const Vec3<Real> reflectance = reflectanceAt(scene.source, shape, vertex.surface.uv);
     vertex.strength = maxComponent(reflectance);
     const Vec3<Real>& normal = vertex.surface.geometricNormal;
     if (shape.light != kNone && lightCosine(scene.lights[shape.light], normal, vertex.wo) > 0)
-        addEmission(scene, scene.lights[shape.light], scene.lights[shape.light].emission, hit.t, normal, state);
+        addEmission(scene, scene.lights[shape.light], emissionAt(scene, scene.lights[shape.light], vertex.surface.uv),
+                    hit.t, normal, state);
     if (!(glm::dot(normal, vertex.wo) > 0)) {
         if ((shape.flags & shared::kShapeTwoSided) == 0) return false;
         vertex.surface.geometricNormal = -vertex.surface.geometricNormal;
