@@ -13,3 +13,8 @@ structure_test(EveryMirroredFunctionHasAParityRecord ${Python3_EXECUTABLE} ${too
 structure_test(FilesAndFunctionsStaySmall ${Python3_EXECUTABLE} ${tools}/check_sizes.py)
 structure_test(CodeIsFormatted bash ${tools}/check_style.sh)
 structure_test(ChecksFindSeededViolations ${Python3_EXECUTABLE} ${tools}/checks_test.py)
+
+# tools/validate itself, on its cheapest cases.
+add_test(NAME Validation.PassesWhatIsRightAndFailsWhatIsWrong
+         COMMAND ${Python3_EXECUTABLE} ${tools}/validation/validation_test.py $<TARGET_FILE_DIR:parhelion>)
+set_tests_properties(Validation.PassesWhatIsRightAndFailsWhatIsWrong PROPERTIES LABELS render TIMEOUT 300)

@@ -12,7 +12,7 @@ import sys
 from check_mirror import SHADER_ONLY, modules, names
 from source_text import files, report, repository
 
-WHOLE_PATHS = {"integrator/path_tracer", "integrator/vertex"}
+WHOLE_PATHS = {"integrator/path_tracer", "integrator/vertex", "integrator/emission"}
 # `Parity a("module", "functions"` and what follows it in the same declaration, `, b("module", "functions"`.
 RECORD = re.compile(r'\bParity\s+\w+\(\s*"([^"]+)",\s*"([^"]+)"|,\s*\w+\(\s*"([\w/]+)",\s*"([^"]+)"')
 

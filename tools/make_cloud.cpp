@@ -1,4 +1,5 @@
-// make_cloud FILE: writes the cumulus of scenes/cloud_box.xml, in the volume format of FILE's extension.
+// make_cloud FILE [N]: writes the cumulus of scenes/cloud_box.xml, in the volume format of FILE's extension; with N,
+// the means over blocks of N^3 voxels. scenes/cumulus_coarse.vol has N = 2.
 //
 // A cumulus is a heap of turrets over a flat base, each turret covered with smaller ones. The cloud is the
 // union of such spheres, its surface pushed out by cellular noise (Worley 1996) into round billows; the
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <glm/glm.hpp>
 #include <vector>
@@ -142,15 +144,30 @@ parhelion::DensityGrid buildCumulus() {
     return grid;
 }
 
+/// Means over blocks of n^3 voxels; n divides the resolution.
+parhelion::DensityGrid coarsen(const parhelion::DensityGrid& fine, unsigned n) {
+    parhelion::DensityGrid grid(fine.resolution() / n);
+    const glm::uvec3 size = grid.resolution();
+    for (unsigned i = 0; i < size.x * size.y * size.z; ++i) {
+        const glm::uvec3 voxel{i % size.x, i / size.x % size.y, i / (size.x * size.y)};
+        double sum = 0;
+        for (unsigned k = 0; k < n * n * n; ++k)
+            sum += double(fine.at(n * voxel + glm::uvec3(k % n, k / n % n, k / (n * n))));
+        if (sum > 0) grid.set(voxel, float(sum / (n * n * n)));
+    }
+    return grid;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) try {
-    if (count != 2) {
-        std::fputs("usage: make_cloud FILE.grid|.vol|.vdb|.nvdb\n", stderr);
+    const unsigned block = count == 3 ? unsigned(std::atoi(arguments[2])) : 1;
+    if (count < 2 || count > 3 || block == 0 || glm::any(glm::notEqual(kResolution % block, glm::uvec3(0)))) {
+        std::fputs("usage: make_cloud FILE.grid|.vol|.vdb|.nvdb [1|2|4|8|16]\n", stderr);
         return 2;
     }
     parhelion::Volume volume;
-    volume.density = buildCumulus();
+    volume.density = coarsen(buildCumulus(), block);
     const std::filesystem::path file = arguments[1];
     using parhelion::GridValueType;
     parhelion::writeVolume(file, volume,

@@ -137,6 +137,7 @@ ImageComparison compareImages(const Image& a, const Image& b, const ComparisonOp
     result.means = largestDeviation(pairs, tilesOf(a.size, whole), options);
     result.tiles = largestDeviation(pairs, tilesOf(a.size, kTileEdge), options);
     result.pixels = largestDeviation(pairs, tilesOf(a.size, 1), options);
+    result.budget = noiseBudget(pairs, a.size, options.significance, options.confidence);
     return result;
 }
 
@@ -167,6 +168,14 @@ std::string describe(const LargestDeviation& deviation) {
                        deviation.passed() ? "agrees" : "DIFFERS");
 }
 
+std::string describe(const NoiseBudget& budget) {
+    return fmt::format(
+        "squared error over both variances: {:.4f} [{:.4f}, {:.4f}], z {:.2f}, limit {:.2f}: {}\n"
+        "systematic difference: at most {:.3g}, root mean square over pixels\n",
+        budget.ratio, budget.ratioConfidence[0], budget.ratioConfidence[1], budget.z, budget.threshold,
+        budget.passed() ? "noise alone" : "NOT NOISE ALONE", budget.largestBias);
+}
+
 std::string describe(const ImageComparison& comparison) {
     std::string text = fmt::format(
         "mean squared error {:.6g}, mean absolute error {:.6g}, largest error {:.6g}\n"
@@ -183,6 +192,7 @@ std::string describe(const ImageComparison& comparison) {
     }
     if (comparison.nonFinite > 0) fmt::format_to(out, "values not finite: {}\n", comparison.nonFinite);
     fmt::format_to(out, "noise {}\n", nameOf(comparison.noise));
+    if (comparison.budget) fmt::format_to(out, "{}", describe(*comparison.budget));
     if (comparison.means) fmt::format_to(out, "image means: {}\n", describe(*comparison.means));
     if (comparison.tiles) fmt::format_to(out, "8 x 8 tiles: {}\n", describe(*comparison.tiles));
     if (comparison.pixels) fmt::format_to(out, "pixels: {}\n", describe(*comparison.pixels));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/noise_budget.h"
 #include "analysis/statistics.h"
 #include "image/image.h"
 
@@ -57,14 +58,15 @@ struct ImageComparison {
     /// Families of z-tests, absent without variance layers: of image means (a global bias), of squares of 8 x 8 pixels
     /// (a local one) and of single pixels (gross errors).
     std::optional<LargestDeviation> means, tiles, pixels;
+    std::optional<NoiseBudget> budget;  ///< absent without variance layers, or where they are 0
 
     /// No value is non-finite and no family rejects. Without variance layers: the images are equal.
     bool agree() const;
 };
 
 /// Compares two images of one size. Noise comes from the channels variance.R, .G, .B (variance of the pixel's mean)
-/// where an image has them, with sampleCount.Y - 1 degrees of freedom if it has that too; an image without them counts
-/// as free of noise. Pixels are taken as independent.
+/// where an image has them, with sampleCount.Y - 1 degrees of freedom if it has that too, or `seeds` - 1 by its
+/// attribute of that name; an image without them counts as free of noise. Pixels are taken as independent.
 /// @throws InputError for different sizes or a missing channel, saying which.
 ImageComparison compareImages(const Image& a, const Image& b, const ComparisonOptions& options = {});
 
@@ -74,6 +76,9 @@ Image errorImage(const Image& a, const Image& b, const ComparisonOptions& option
 
 /// One line: z, threshold, where, and whether it passed.
 std::string describe(const LargestDeviation& deviation);
+
+/// Two lines: the squared error against the noise, and the systematic difference left.
+std::string describe(const NoiseBudget& budget);
 
 /// The comparison as lines of text.
 std::string describe(const ImageComparison& comparison);

@@ -17,6 +17,14 @@ std::span<const float> channelOrNothing(const Image& image, const std::string& n
     return found == image.channels.end() ? std::span<const float>{} : std::span<const float>(found->second);
 }
 
+/// The variances of an image made of several count as estimated from these; all others as exact.
+double degreesOfFreedomOf(const Image& image) {
+    const auto found = image.attributes.find("seeds");
+    if (found == image.attributes.end() || !std::holds_alternative<std::int64_t>(found->second))
+        return std::numeric_limits<double>::infinity();
+    return std::max<double>(1, static_cast<double>(std::get<std::int64_t>(found->second)) - 1);
+}
+
 }  // namespace
 
 void requireComparable(const Image& image, glm::uvec2 size, const std::string& name) {
@@ -32,7 +40,8 @@ void requireComparable(const Image& image, glm::uvec2 size, const std::string& n
 ChannelPair::Side::Side(const Image& image, const std::string& channel)
     : values(image.channels.at(channel)),
       variances(channelOrNothing(image, "variance." + channel)),
-      sampleCounts(channelOrNothing(image, "sampleCount.Y")) {}
+      sampleCounts(channelOrNothing(image, "sampleCount.Y")),
+      degreesOfFreedom(degreesOfFreedomOf(image)) {}
 
 bool ChannelPair::Side::isFinite(std::size_t pixel) const {
     return std::isfinite(values[pixel]) && (variances.empty() || std::isfinite(variances[pixel]));
@@ -41,9 +50,8 @@ bool ChannelPair::Side::isFinite(std::size_t pixel) const {
 void ChannelPair::Side::addTo(NoisyMean& mean, std::size_t pixel, double weight) const {
     mean.value += weight * values[pixel];
     if (variances.empty()) return;
-    const double degreesOfFreedom =
-        sampleCounts.empty() ? std::numeric_limits<double>::infinity() : std::max(1.0, double{sampleCounts[pixel]} - 1);
-    mean.noise.add(weight * weight * variances[pixel], degreesOfFreedom);
+    const double ofPixel = sampleCounts.empty() ? degreesOfFreedom : std::max(1.0, double{sampleCounts[pixel]} - 1);
+    mean.noise.add(weight * weight * variances[pixel], ofPixel);
 }
 
 ChannelPair::ChannelPair(const Image& a, const Image& b, const std::string& channel)

@@ -44,6 +44,7 @@ private:
         std::span<const float> values;
         std::span<const float> variances;     ///< of each pixel's mean; empty: unknown
         std::span<const float> sampleCounts;  ///< empty: unknown
+        double degreesOfFreedom;              ///< of the variances where the sample counts are unknown
 
         Side(const Image& image, const std::string& channel);
         bool isFinite(std::size_t pixel) const;

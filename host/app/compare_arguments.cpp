@@ -17,6 +17,8 @@ CLI::App* addCompareCommand(CLI::App& program, CompareArguments& arguments) {
                      "below; full colour at a tenth of the mean of B) and, with noise estimates, PREFIX_z.png (full "
                      "colour at 4 deviations)")
         ->type_name("PREFIX");
+    addNumberOption(*command, "--error-range", arguments.errorRange, 1e-30, kMax,
+                    "error of full colour in PREFIX_error.png");
     addNumberOption(*command, "--max-mse", arguments.maxMse, 0, kMax, "fail above this mean squared error");
     addNumberOption(*command, "--max-mae", arguments.maxMae, 0, kMax, "fail above this mean absolute error");
     addNumberOption(*command, "--max-error", arguments.maxError, 0, kMax, "fail above this largest absolute error");
@@ -24,6 +26,10 @@ CLI::App* addCompareCommand(CLI::App& program, CompareArguments& arguments) {
                     "fail above this mean of (A - B)^2 / (B^2 + epsilon)");
     addNumberOption(*command, "--max-mean-difference", arguments.maxMeanDifference, 0, kMax,
                     "fail when a channel's mean(A) / mean(B) is further than this from 1");
+    addNumberOption(*command, "--mean-within", arguments.meanWithin, 0, kMax,
+                    "fail unless the 95 % interval of every channel's mean(A) / mean(B) lies this close to 1");
+    command->add_flag("--noise-alone", arguments.requireNoiseAlone,
+                      "fail unless the mean squared error is what the variance channels add up to");
     command->add_flag("--agree", arguments.requireAgreement,
                       "fail unless the images agree within their noise (their variance channels), or are equal");
     command->add_flag("--json", arguments.json, "print as JSON");

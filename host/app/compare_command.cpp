@@ -20,6 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
 /// One requirement and how it went.
 struct Verdict {
     std::string what;
@@ -31,10 +33,20 @@ struct Verdict {
 double meanDifference(const ImageComparison& comparison) {
     double largest = 0;
     for (const ChannelMeans& means : comparison.channels) {
-        const double whenBlack = means.meanA == means.meanB ? 0 : std::numeric_limits<double>::infinity();
+        const double whenBlack = means.meanA == means.meanB ? 0 : kNever;
         largest = std::max(largest, means.ratio ? std::abs(*means.ratio - 1) : whenBlack);
     }
     return largest;
+}
+
+/// How far from 1 mean(A) / mean(B) may be, by the intervals of its channels.
+double meanReach(const ImageComparison& comparison) {
+    double largest = 0;
+    for (const ChannelMeans& means : comparison.channels) {
+        const auto [lower, upper] = means.ratioConfidence.value_or(std::array{1.0, 1.0});
+        largest = std::max({largest, std::abs(lower - 1), std::abs(upper - 1)});
+    }
+    return std::max(largest, meanDifference(comparison));
 }
 
 std::vector<Verdict> judge(const CompareArguments& arguments, const ImageComparison& comparison) {
@@ -47,6 +59,12 @@ std::vector<Verdict> judge(const CompareArguments& arguments, const ImageCompari
     require("largest error", comparison.maxAbsoluteError, arguments.maxError);
     require("relmse", comparison.relativeMse, arguments.maxRelativeMse);
     require("mean difference", meanDifference(comparison), arguments.maxMeanDifference);
+    require("interval of the mean", meanReach(comparison), arguments.meanWithin);
+    if (arguments.requireNoiseAlone) {
+        const std::optional<NoiseBudget>& budget = comparison.budget;
+        verdicts.push_back({"z of the squared error", budget ? std::abs(budget->z) : kNever,
+                            budget ? budget->threshold : twoSidedThreshold(ComparisonOptions{}.significance)});
+    }
     if (arguments.requireAgreement) verdicts.push_back({"disagreement", comparison.agree() ? 0.0 : 1.0, 0});
     // Values left out of the figures cannot be within any limit.
     if (!verdicts.empty()) verdicts.push_back({"non-finite values", static_cast<double>(comparison.nonFinite), 0});
@@ -67,6 +85,17 @@ Json toJson(const std::optional<LargestDeviation>& deviation) {
             {"passed", deviation->passed()}};
 }
 
+Json toJson(const std::optional<NoiseBudget>& budget) {
+    if (!budget) return nullptr;
+    return {{"expectedMse", budget->expected},
+            {"ratio", budget->ratio},
+            {"ratioConfidence", budget->ratioConfidence},
+            {"z", budget->z},
+            {"threshold", budget->threshold},
+            {"largestBias", budget->largestBias},
+            {"passed", budget->passed()}};
+}
+
 Json toJson(const ImageComparison& comparison, const std::vector<Verdict>& verdicts) {
     Json json = {{"mse", comparison.meanSquaredError},
                  {"mae", comparison.meanAbsoluteError},
@@ -76,6 +105,7 @@ Json toJson(const ImageComparison& comparison, const std::vector<Verdict>& verdi
                  {"nonFinite", comparison.nonFinite},
                  {"agree", comparison.agree()},
                  {"channels", Json::array()},
+                 {"budget", toJson(comparison.budget)},
                  {"means", toJson(comparison.means)},
                  {"tiles", toJson(comparison.tiles)},
                  {"pixels", toJson(comparison.pixels)},
@@ -93,11 +123,16 @@ Json toJson(const ImageComparison& comparison, const std::vector<Verdict>& verdi
     return json;
 }
 
-/// The differences as a picture: |a - b|, 1 being the mean of b.
-Image errorPicture(const Image& error, const ImageComparison& comparison) {
+double meanOfB(const ImageComparison& comparison) {
     double mean = 0;
     for (const ChannelMeans& means : comparison.channels)
         mean += means.meanB / static_cast<double>(comparison.channels.size());
+    return mean;
+}
+
+/// The differences as a picture: |a - b|, 1 being the mean of b.
+Image errorPicture(const Image& error, const ImageComparison& comparison) {
+    const double mean = meanOfB(comparison);
     Image picture;
     picture.size = error.size;
     for (const char* channel : {"R", "G", "B"}) {
@@ -118,14 +153,14 @@ std::vector<float> channelMean(const Image& image, const std::string& layer) {
 }
 
 /// What --pictures asks for. z is the largest in magnitude of a pixel's channels.
-void writePictures(const std::string& prefix, const Image& a, const Image& b, const Image& error,
+void writePictures(const CompareArguments& arguments, const Image& a, const Image& b, const Image& error,
                    const ImageComparison& comparison) {
-    double mean = 0;
-    for (const ChannelMeans& means : comparison.channels)
-        mean += means.meanB / static_cast<double>(comparison.channels.size());
+    const std::string& prefix = arguments.pictures;
+    const double mean = meanOfB(comparison);
     writePng(prefix + "_a.png", a);
     writePng(prefix + "_b.png", b);
-    writeSignedPng(prefix + "_error.png", error.size, channelMean(error, "error"), mean > 0 ? 0.1 * mean : 1.0);
+    writeSignedPng(prefix + "_error.png", error.size, channelMean(error, "error"),
+                   arguments.errorRange.value_or(mean > 0 ? 0.1 * mean : 1.0));
     if (!error.has("z.R")) return;
     std::vector<float> z = error.channels.at("z.R");
     for (const char* channel : {"z.G", "z.B"}) {
@@ -163,7 +198,7 @@ int runCompareCommand(const CompareArguments& arguments) {
     }
     if (!arguments.pictures.empty()) {
         const auto lock = interruption.holdOff();
-        writePictures(arguments.pictures, a, b, errorImage(a, b), comparison);
+        writePictures(arguments, a, b, errorImage(a, b), comparison);
     }
     const std::vector<Verdict> verdicts = judge(arguments, comparison);
     bool passed = true;

@@ -11,8 +11,10 @@ struct CompareArguments {
     std::string imageA, imageB;
     std::string error;     ///< EXR to write, or empty
     std::string pictures;  ///< prefix of PNGs to write, or empty
-    std::optional<double> maxMse, maxMae, maxError, maxRelativeMse, maxMeanDifference;
+    std::optional<double> maxMse, maxMae, maxError, maxRelativeMse, maxMeanDifference, meanWithin;
+    std::optional<double> errorRange;  ///< of the picture of the error
     bool requireAgreement = false;
+    bool requireNoiseAlone = false;
     bool json = false;
 };
 

@@ -29,6 +29,8 @@ void addImageOptions(CLI::App& command, RenderArguments& arguments) {
     addParsedOption(command, "--crop", arguments.crop, "X,Y,WxH", "render only these pixels of the film", parseCrop);
     addIntegerOption(command, "--max-depth", arguments.maxDepth, -1, 0x7fffffff,
                      "scatterings a path may have, instead of the scene's; -1: unlimited");
+    addIntegerOption(command, "--depth-layers", arguments.depthLayers, 0, IntegratorDescription::kMostDepthLayers,
+                     "EXR layers depth0, depth1, ... by number of scatterings, the last for all above; 0: none");
     addIntegerOption(command, "--feature-spp", arguments.featureSamples, 0, 65536,
                      "camera rays per pixel for albedo, normal and depth (default 16; 0: leave them out)");
     addNumberOption(command, "--exposure", arguments.exposure, -64, 64, "stops; brightens the PNG only (default 0)");

@@ -57,12 +57,13 @@ void requireInside(const PixelRect& crop, glm::uvec2 film) {
 }
 
 /// The system may promise more memory than there is and end the process when it is used: ask first.
-void requireMemory(glm::uvec2 pixels) {
+void requireMemory(glm::uvec2 pixels, std::uint32_t depthLayers) {
     constexpr std::size_t kImageChannels = 14;  // those of toImage
     // The film is held by the back end and, at the end, copied from it.
     constexpr double kBytesPerPixel =
         2 * (sizeof(shared::FilmPixel) + sizeof(shared::FeaturePixel)) + kImageChannels * sizeof(float);
-    const double needed = kBytesPerPixel * pixels.x * pixels.y;
+    const double layerBytes = (2.0 * sizeof(shared::LayerPixel) + 3 * sizeof(float)) * depthLayers;
+    const double needed = (kBytesPerPixel + layerBytes) * pixels.x * pixels.y;
     const double allowed = 0.5 * static_cast<double>(physicalMemoryBytes());
     if (needed > allowed)
         throw InputError(fmt::format("film of {} needs {}, half of the memory is {}: --size or --crop make it smaller",
@@ -73,6 +74,7 @@ CompiledScene compile(const RenderArguments& arguments, const SceneDescription& 
     CompileOptions options;
     options.size = arguments.scene.size;
     options.maxDepth = arguments.maxDepth;
+    if (arguments.depthLayers) options.depthLayers = static_cast<unsigned>(*arguments.depthLayers);
     options.sampleEveryLight = arguments.sampleEveryLight;
     if (arguments.crop) {
         requireInside(*arguments.crop, arguments.scene.size.value_or(description.film.size));
@@ -179,7 +181,7 @@ int runRenderCommand(const RenderArguments& arguments) {
     const std::unique_ptr<gpu::Device> device = openDevice(arguments);
     std::vector<CloudBakeReport> clouds = bake(arguments, device.get(), description);
     const CompiledScene scene = compile(arguments, description);
-    requireMemory(scene.cropSize);
+    requireMemory(scene.cropSize, scene.constants.depthLayers);
     const RenderSettings settings = chooseSettings(arguments, scene);
     if (!arguments.quiet)
         for (const std::string& note : scene.notes) fmt::print(stderr, "parhelion: note: {}\n", note);

@@ -15,7 +15,7 @@ enum class Backend { Vulkan, Reference, ReferenceDouble };
 struct RenderArguments {
     SceneArguments scene;
     std::string output;
-    std::optional<std::int64_t> sampleCount, maxDepth;
+    std::optional<std::int64_t> sampleCount, maxDepth, depthLayers;
     std::optional<PixelRect> crop;
     std::optional<std::int64_t> seed;
     std::uint32_t featureSamples = 16;

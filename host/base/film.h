@@ -23,6 +23,8 @@ struct Film {
     std::vector<shared::FilmPixel> pixels;       ///< crop.size.x * crop.size.y, row by row from the top
     std::vector<shared::FeaturePixel> features;  ///< same order; sums over featureSamples
     std::uint64_t featureSamples = 0;
+    std::uint32_t depthLayers = 0;           ///< layers by number of scatterings, the last for all above; 0: none
+    std::vector<shared::LayerPixel> layers;  ///< depthLayers a pixel, in the order of pixels
     std::array<std::uint64_t, shared::kCounterCount> counters{};  ///< summed over the render
 };
 

@@ -17,11 +17,15 @@ public:
         media();
         phaseFunctions();
         lights();
+        lightSampling();
         decide(Effect::hasDepthLimit, constants_.maxDepth != shared::kNone,
                fmt::format("paths end after depth {}", constants_.maxDepth), "paths end by roulette alone");
         decide(Effect::hasFilterTable, !scene_.filterTable.empty(),
                fmt::format("the reconstruction filter reaches {} pixels", constants_.camera.filterRadius),
                "the reconstruction filter is the pixel's box");
+        decide(Effect::hasDepthLayers, constants_.depthLayers > 0,
+               countOf(constants_.depthLayers, "layer", "layers") + " by number of scatterings",
+               "no layers by number of scatterings are asked for");
         return std::move(effects_);
     }
 
@@ -127,7 +131,6 @@ private:
 
     void lights() {
         using shared::Light;
-        const std::size_t sampled = countLights([](const Light& light) { return light.selection > 0.0f; });
         const std::size_t delta = countLights([](const Light& light) {
             return light.type == shared::kLightDirectional || light.type == shared::kLightPoint;
         });
@@ -151,10 +154,6 @@ private:
         decide(Effect::hasSky, surrounding == shared::kLightSky, "a gradient sky is given", "no gradient sky");
         decide(Effect::hasStars, surrounding == shared::kLightSky && constants_.sky.starCount > 0,
                countOf(constants_.sky.starCount, "star", "stars"), "no star");
-        decide(Effect::hasStrategyWeights, constants_.emitterSamples != 1.0f || constants_.scatterSamples != 1.0f,
-               fmt::format("direct lighting takes {} light and {} scattering samples", constants_.emitterSamples,
-                           constants_.scatterSamples),
-               "light and scattering samples weigh the same");
         decide(Effect::hasEnvironment, environment, "an emitter surrounds the scene", "no emitter surrounds the scene");
         decide(Effect::hasEnvironmentSampling, environmentSampled, "it is sampled like other lights",
                environment ? "scattering finds a constant environment better" : "no emitter surrounds the scene");
@@ -162,8 +161,21 @@ private:
                countOf(delta, "directional or point light", "directional and point lights"),
                "no directional or point light");
         decide(Effect::hasAreaLights, area > 0, countOf(area, "area light", "area lights"), "no area light");
-        decide(Effect::hasManyLights, sampled > 1, countOf(sampled, "sampled light", "sampled lights"),
-               countOf(sampled, "sampled light", "sampled lights"));
+    }
+
+    void lightSampling() {
+        using shared::Light;
+        decide(Effect::hasStrategyWeights, constants_.emitterSamples != 1.0f || constants_.scatterSamples != 1.0f,
+               fmt::format("light samples weigh {}, scattering samples {}", constants_.emitterSamples,
+                           constants_.scatterSamples),
+               "light and scattering samples weigh the same");
+        // Those that light sampling chooses from, and those that are looked up where a path meets them.
+        const std::size_t listed = countLights([](const Light& light) {
+            return light.selection > 0.0f || light.type == shared::kLightQuad || light.type == shared::kLightSphere ||
+                   light.type == shared::kLightMesh;
+        });
+        decide(Effect::hasManyLights, listed > 1, countOf(listed, "sampled or area light", "sampled or area lights"),
+               countOf(listed, "sampled or area light", "sampled or area lights"));
     }
 
     const CompiledScene& scene_;

@@ -57,12 +57,13 @@ shared::Shape makeShape(const KeptShape& kept, bool asTriangles) {
     const ShapeDescription& source = *kept.placed->source;
     shared::Shape record{};
     if (!kept.placed->isNull())
-        record.reflectance = toFloat(source.bsdf.reflectance, source.bsdf.where, nameOf(source) + ": reflectance");
+        record.reflectance = toFloat(source.bsdf.reflectance * kept.reflectance.tint, source.bsdf.where,
+                                     nameOf(source) + ": reflectance");
     record.flags = shapeFlags(*kept.placed, asTriangles);
     record.interior = kept.interior;
     record.exterior = kept.exterior;
     record.light = shared::kNone;
-    record.texture = shared::kNone;
+    record.texture = kept.reflectance.index;
     return record;
 }
 
@@ -91,6 +92,9 @@ shared::Sphere makeSphere(const PlacedShape& shape, std::uint32_t index, std::ui
     sphere.radius = toFloat(glm::dvec3(shape.radius), shape.source->where, nameOf(*shape.source) + ": radius").x;
     sphere.shape = index;
     sphere.flags = flags;
+    sphere.axisX = glm::vec3(glm::normalize(glm::dvec3(shape.toScene[0])));
+    sphere.axisZ = glm::vec3(glm::normalize(glm::dvec3(shape.toScene[2])));
+    sphere.handedness = shape.mirrored ? -1.0f : 1.0f;
     return sphere;
 }
 
@@ -103,16 +107,18 @@ shared::Box makeBox(const PlacedShape& shape, std::uint32_t index, std::uint32_t
     return box;
 }
 
-void writeTriangles(const TriangleSoup& soup, Bvh bvh, CompiledScene& scene) {
+void writeTriangles(const TriangleSoup& soup, Bvh bvh, std::span<const KeptShape> shapes, CompiledScene& scene) {
     scene.constants.triangleCount = std::uint32_t(bvh.order.size());
     scene.bvhNodes = std::move(bvh.nodes);
     scene.triangles.reserve(shared::kTriangleTexels * bvh.order.size());
     for (const std::uint32_t i : bvh.order)
         for (int k = 0; k < 3; ++k)
             scene.triangles.emplace_back(soup.vertices[i][k], k == 0 ? std::bit_cast<float>(soup.shapes[i]) : 0.0f);
-    if (!soup.hasNormals) return;
     for (const std::uint32_t i : bvh.order)
-        for (int k = 0; k < 3; ++k) scene.vertexNormals.emplace_back(soup.normals[i][k], 0.0f);
+        for (int k = 0; k < 3 && soup.hasNormals; ++k) scene.vertexNormals.emplace_back(soup.normals[i][k], 0.0f);
+    if (std::ranges::none_of(shapes, &KeptShape::isTextured)) return;
+    for (const std::uint32_t i : bvh.order)
+        scene.triangleUvs.insert(scene.triangleUvs.end(), soup.uvs[i].begin(), soup.uvs[i].end());
 }
 
 /// What a texel buffer can address (2^27 texels, the least that the drivers we run on offer).
@@ -148,7 +154,7 @@ std::vector<EmissiveGeometry> compileGeometry(std::span<const KeptShape> shapes,
     checkTriangleCount(soup);
     if (soup.droppedCount > 0)
         scene.notes.push_back(fmt::format("{} triangles of zero area were dropped", soup.droppedCount));
-    writeTriangles(soup, buildBvh(soup.vertices), scene);
+    writeTriangles(soup, buildBvh(soup.vertices), shapes, scene);
 
     const shared::SceneConstants& constants = scene.constants;
     for (std::uint32_t i = 0; i < constants.quadCount; ++i) emissive[constants.quads[i].shape].primitive = i;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "compile/compile_environment.h"
 #include "compile/compile_sky.h"
 #include "compile/luminance.h"
 #include "compile/transforms.h"
@@ -20,6 +21,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 bool isBlack(const glm::vec3& rgb) { return rgb == glm::vec3(0.0f); }
+
+bool isDelta(const EmitterDescription& emitter) {
+    using Type = EmitterDescription::Type;
+    return emitter.type == Type::Directional || emitter.type == Type::Point;
+}
 
 /// Radius of a sphere around everything that light can fall on; 1 when there is nothing.
 double sceneRadius(std::span<const KeptShape> shapes) {
@@ -42,7 +48,8 @@ public:
                   CompiledScene& scene)
         : shapes_(shapes),
           geometry_(geometry),
-          sampleEveryLight_(sampleEveryLight),
+          sampleEveryLight_(sampleEveryLight || scene.constants.scatterSamples == 0.0f),
+          sampleNoLight_(scene.constants.emitterSamples == 0.0f),
           radius_(sceneRadius(shapes)),
           scene_(scene) {
         scene.constants.environment = shared::kNone;
@@ -53,10 +60,13 @@ public:
         const EmissiveGeometry& geometry = geometry_[shapeIndex];
         const bool hasSurface = geometry.primitive != shared::kNone || !geometry.triangles.empty();
         if (!source.radiance || !hasSurface) return;
-        const glm::vec3 radiance = toFloat(*source.radiance, source.where, nameOf(source) + ": radiance");
+        const SurfaceTexture& texture = shapes_[shapeIndex].radiance;
+        const glm::dvec3 tinted = *source.radiance * texture.tint;
+        const glm::vec3 radiance = toFloat(tinted, source.where, nameOf(source) + ": radiance");
         if (isBlack(radiance)) return noteBlack(nameOf(source));
+        const glm::dvec3 mean = texture.index == shared::kNone ? tinted : tinted * texture.mean;
         shared::Light light{};
-        light.texture = shared::kNone;
+        light.texture = texture.index;
         light.emission = radiance;
         const double area = writeSurface(shapeIndex, light);
         if (source.emitsOnBothSides) light.flags |= shared::kLightTwoSided;
@@ -64,7 +74,7 @@ public:
         // From outside, where it would be sampled, a sphere that emits inwards alone is dark.
         const bool inwards = sides == 1.0 && light.type == shared::kLightSphere &&
                              (scene_.shapes[shapeIndex].flags & shared::kShapeFlipNormal) != 0;
-        append({light, inwards ? 0.0 : sides * kPi * area * luminance(radiance), shapeIndex}, source.where);
+        append({light, inwards ? 0.0 : sides * kPi * area * luminance(mean), shapeIndex}, source.where);
     }
 
     void addEmitter(const EmitterDescription& emitter) {
@@ -72,12 +82,14 @@ public:
                                                  "environment map", "sky"};
         const std::string name = kNames[static_cast<int>(emitter.type)];
         if (emitter.type == EmitterDescription::Type::Sky) return addSky(emitter);
+        if (emitter.type == EmitterDescription::Type::EnvironmentMap) return addEnvironmentMap(emitter);
         shared::Light light{};
         light.texture = shared::kNone;
         light.emission = toFloat(emitter.value, emitter.where, name);
         if (isBlack(light.emission)) return noteBlack(name);
         light.primitive = shared::kNone;
         const double flux = luminance(light.emission);
+        if (sampleNoLight_ && isDelta(emitter)) return noteLost(name);
         switch (emitter.type) {
             case EmitterDescription::Type::Directional:
                 light.type = shared::kLightDirectional;
@@ -95,8 +107,22 @@ public:
                     emitter.where);
             case EmitterDescription::Type::Sky:
             case EmitterDescription::Type::EnvironmentMap:
-                throw InputError(emitter.where, name + " is not supported");
+                return;  // above
         }
+    }
+
+    void addEnvironmentMap(const EmitterDescription& emitter) {
+        if (isUniform(emitter.map)) {
+            EmitterDescription uniform;
+            uniform.where = emitter.where;
+            uniform.value = glm::dvec3(emitter.map.texels.front()) * emitter.value;
+            return uniform.value == glm::dvec3(0.0) ? noteBlack("environment map") : addEmitter(uniform);
+        }
+        const bool scatteringCounts = scene_.constants.scatterSamples > 0.0f;
+        if (emitter.misCompensation && !scatteringCounts)
+            scene_.notes.push_back("environment map: without scattering samples there is no MIS compensation");
+        const glm::dvec3 mean = compileEnvironment(emitter, emitter.misCompensation && scatteringCounts, scene_);
+        addSurrounding(shared::kLightEnvironmentMap, "environment map", mean, emitter.where);
     }
 
     void addSky(const EmitterDescription& emitter) {
@@ -109,12 +135,17 @@ public:
             return uniform.value == glm::dvec3(0.0) ? noteBlack("sky") : addEmitter(uniform);
         }
         const glm::dvec3 mean = compileSky(emitter.sky, emitter.where, scene_);
-        if (mean == glm::dvec3(0.0)) return noteBlack("sky");
+        addSurrounding(shared::kLightSky, "sky", mean, emitter.where);
+    }
+
+    /// A light that shines from everywhere, of the given mean radiance.
+    void addSurrounding(std::uint32_t type, const char* name, const glm::dvec3& mean, const SourceLocation& where) {
+        if (mean == glm::dvec3(0.0)) return noteBlack(name);
         shared::Light light{};
         light.emission = glm::vec3(mean);  // for those who list lights
-        light.type = shared::kLightSky;
+        light.type = type;
         light.texture = light.primitive = shared::kNone;
-        append({light, 4.0 * kPi * kPi * radius_ * radius_ * luminance(mean), shared::kNone}, emitter.where);
+        append({light, 4.0 * kPi * kPi * radius_ * radius_ * luminance(mean), shared::kNone}, where);
     }
 
     /// Lights that are sampled come first, so that the others need no place in the search.
@@ -127,8 +158,9 @@ public:
             constants.lights[index] = pending.light;
             powers.push_back(pending.power);
             if (pending.shape != shared::kNone) scene_.shapes[pending.shape].light = index;
-            const bool surrounds =
-                pending.light.type == shared::kLightEnvironment || pending.light.type == shared::kLightSky;
+            const bool surrounds = pending.light.type == shared::kLightEnvironment ||
+                                   pending.light.type == shared::kLightEnvironmentMap ||
+                                   pending.light.type == shared::kLightSky;
             if (surrounds) constants.environment = index;
         }
         assignSelection(powers, std::span(constants.lights).first(constants.lightCount));
@@ -143,7 +175,12 @@ private:
 
     void noteBlack(const std::string& name) { scene_.notes.push_back(fmt::format("{}: its light is black", name)); }
 
-    void append(const Pending& light, const SourceLocation& where) {
+    void noteLost(const std::string& name) {
+        scene_.notes.push_back(fmt::format("{}: its light is lost, for scattering alone never finds it", name));
+    }
+
+    void append(Pending light, const SourceLocation& where) {
+        if (sampleNoLight_) light.power = 0.0;
         if (pending_.size() == shared::kMaxLights)
             throw InputError(where, fmt::format("a scene may have at most {} lights", shared::kMaxLights));
         pending_.push_back(light);
@@ -185,6 +222,7 @@ private:
     std::span<const KeptShape> shapes_;
     std::span<const EmissiveGeometry> geometry_;
     bool sampleEveryLight_;
+    bool sampleNoLight_;  ///< scattering alone finds light
     double radius_;
     CompiledScene& scene_;
     std::vector<Pending> pending_;
@@ -194,11 +232,11 @@ void rejectSecondEnvironment(const SceneDescription& description) {
     const EmitterDescription* first = nullptr;
     for (const EmitterDescription& emitter : description.emitters) {
         using Type = EmitterDescription::Type;
-        if (emitter.type != Type::Constant && emitter.type != Type::Sky) continue;
+        if (emitter.type == Type::Directional || emitter.type == Type::Point) continue;
         if (first)
             throw InputError(
                 emitter.where,
-                fmt::format("a scene may have one constant emitter or sky; the first is at {}", first->where.text()));
+                fmt::format("a scene may have one emitter that surrounds it; the first is at {}", first->where.text()));
         first = &emitter;
     }
 }

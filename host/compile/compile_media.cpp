@@ -8,6 +8,7 @@
 
 #include "compile/compile_phase.h"
 #include "compile/density_storage.h"
+#include "compile/extinction_grid.h"
 #include "compile/majorant_grid.h"
 #include "compile/transforms.h"
 
@@ -86,18 +87,22 @@ void writeAlbedo(const MediumDescription& medium, const glm::dvec3& worldOrigin,
     scene.albedoVoxels.insert(scene.albedoVoxels.end(), texels.begin(), texels.end());
 }
 
-void writeDensity(const MediumDescription& medium, const glm::dvec3& worldOrigin, bool bricked, shared::Medium& record,
-                  CompiledScene& scene) {
-    if (!medium.density) {
+/// Lengths of a voxel's edges [scene units].
+glm::dvec3 voxelEdges(const GridPlacement& placement, glm::uvec3 resolution) {
+    const glm::dmat4& axes = placement.toWorld;
+    return glm::dvec3(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])) / glm::dvec3(resolution);
+}
+
+void writeDensity(const MediumDescription& medium, const ExtinctionGrid* extinction, const glm::dvec3& worldOrigin,
+                  bool bricked, shared::Medium& record, CompiledScene& scene) {
+    if (!extinction) {
         record.flags |= shared::kMediumHomogeneous;
         record.resolution = record.cells = glm::uvec3(1);
         return;
     }
-    const DensityGrid& grid = medium.density->volume.density;
-    const glm::dmat4 placement =
-        medium.density->toWorld * glm::scale(glm::dmat4(1.0), 1.0 / glm::dvec3(grid.resolution()));
-    const glm::dvec3 edge(glm::length(placement[0]), glm::length(placement[1]), glm::length(placement[2]));
-    const MajorantGrid majorants = chooseMajorants(grid, double(record.sigmaMax) * edge);
+    const DensityGrid& grid = extinction->largest();
+    const MajorantGrid majorants =
+        chooseMajorants(grid, double(record.sigmaMax) * voxelEdges(*medium.density, grid.resolution()));
     if (!std::isfinite(record.sigmaMax * *std::ranges::max_element(majorants.bounds)))
         throw InputError(medium.density->where, nameOf(medium) +
                                                     ": sigma_t times the largest density must be within "
@@ -109,6 +114,12 @@ void writeDensity(const MediumDescription& medium, const glm::dvec3& worldOrigin
     record.cellLevel = majorants.level;
     record.cellOffset = std::uint32_t(scene.majorants.size());
     scene.majorants.insert(scene.majorants.end(), majorants.bounds.begin(), majorants.bounds.end());
+    if (const ColorGrid* color = extinction->color()) {
+        record.flags |= shared::kMediumColorDensity;
+        record.voxelOffset = std::uint32_t(scene.density.size());
+        scene.density.insert(scene.density.end(), color->values.begin(), color->values.end());
+        return;
+    }
     record.voxelOffset = appendDensity(grid, bricked, scene);
     if (bricked) record.flags |= shared::kMediumBricked;
 }
@@ -135,24 +146,28 @@ struct LargestGrid {
     }
 };
 
-/// Before anything large is allocated.
-DensityPlan planStorage(std::span<const MediumDescription* const> media, std::size_t memoryLimitBytes) {
+/// Before anything large is allocated. Grids with a value a channel are always dense.
+DensityPlan planStorage(std::span<const MediumDescription* const> media,
+                        std::span<const std::optional<ExtinctionGrid>> extinctions, std::size_t memoryLimitBytes) {
     std::vector<const DensityGrid*> grids;
     LargestGrid density, albedo;
-    std::size_t cells = 0, albedoCount = 0;
-    for (const MediumDescription* medium : media) {
-        if (medium->density) {
-            const DensityGrid& grid = medium->density->volume.density;
-            grids.push_back(&grid);
-            cells += grid.brickTable().size();
-            density.consider(*medium, *medium->density, "density");
+    std::size_t cells = 0, colored = 0, albedoCount = 0;
+    for (std::size_t i = 0; i < media.size(); ++i) {
+        if (extinctions[i]) {
+            if (extinctions[i]->color())
+                colored += extinctions[i]->color()->values.size();
+            else
+                grids.push_back(&extinctions[i]->largest());
+            cells += extinctions[i]->largest().brickTable().size();
+            density.consider(*media[i], *media[i]->density, "density");
         }
-        if (medium->albedoGrid) {
-            albedoCount += texelCount(*medium->albedoGrid);
-            albedo.consider(*medium, *medium->albedoGrid, "albedo");
+        if (media[i]->albedoGrid) {
+            albedoCount += texelCount(*media[i]->albedoGrid);
+            albedo.consider(*media[i], *media[i]->albedoGrid, "albedo");
         }
     }
-    const DensityPlan plan = planDensityStorage(grids);
+    DensityPlan plan = planDensityStorage(grids);
+    plan.voxels += colored;
     density.requireAtMost(plan.voxels, kMaxTexels,
                           plan.bricked ? "voxels of density in bricks that are not empty" : "voxels of density");
     density.requireAtMost(plan.tableEntries, kMaxTexels, "bricks of density");
@@ -174,12 +189,7 @@ std::vector<bool> findEmptyMedia(const SceneDescription& description, std::vecto
             throw InputError(medium.density->where,
                              nameOf(medium) + ": a procedural cloud must be baked (bakeClouds) before it is compiled");
         const bool noExtinction = !(float(largest(medium.sigmaT)) > 0.0f);
-        if (medium.density && medium.density->volume.channels != 1)
-            throw InputError(medium.density->where,
-                             fmt::format("{}: sigma_t must be a grid of one channel (colour comes from albedo or a "
-                                         "constant sigma_t); got {} channels",
-                                         nameOf(medium), medium.density->volume.channels));
-        const bool noDensity = medium.density && medium.density->volume.density.maximum() == 0.0f;
+        const bool noDensity = medium.density && largestValue(medium.density->volume) == 0.0f;
         empty.push_back(noExtinction || noDensity);
         if (empty.back())
             notes.push_back(fmt::format("{} was dropped: its {} is zero", nameOf(medium),
@@ -193,15 +203,21 @@ void compileMedia(std::span<const MediumDescription* const> media, const glm::dv
     if (media.size() > shared::kMaxMedia)
         throw InputError(media[shared::kMaxMedia]->where,
                          fmt::format("a scene may use at most {} media; got {}", shared::kMaxMedia, media.size()));
-    const DensityPlan plan = planStorage(media, memoryLimitBytes);
+    std::vector<std::optional<ExtinctionGrid>> extinctions;
+    for (const MediumDescription* medium : media) {
+        extinctions.emplace_back();
+        if (medium->density) extinctions.back().emplace(medium->density->volume);
+    }
+    const DensityPlan plan = planStorage(media, extinctions, memoryLimitBytes);
     scene.density.reserve(plan.voxels);
     scene.brickTable.reserve(plan.tableEntries);
-    for (const MediumDescription* medium : media) {
+    for (std::size_t i = 0; i < media.size(); ++i) {
+        const MediumDescription* medium = media[i];
         shared::Medium record{};
         writeExtinction(*medium, record);
         compilePhase(medium->phase, nameOf(*medium), record, scene);
         writeAlbedo(*medium, worldOrigin, record, scene);
-        writeDensity(*medium, worldOrigin, plan.bricked, record, scene);
+        writeDensity(*medium, extinctions[i] ? &*extinctions[i] : nullptr, worldOrigin, plan.bricked, record, scene);
         scene.constants.media[scene.constants.mediumCount++] = record;
     }
 }

@@ -13,9 +13,9 @@ std::vector<bool> findEmptyMedia(const SceneDescription& description, std::vecto
 
 /// Writes media records, density, majorants and albedo voxels.
 ///
-/// All density grids are stored alike, since the kernel reads one kind: dense, or bricked if any one of them is large
-/// and mostly empty (more than 64 MiB dense with under 60 % of its bricks occupied), or if they need more than
-/// kMaxTexels voxels together.
+/// Grids with a value a channel are stored dense; all others alike, since the kernel reads one kind: dense, or bricked
+/// if any one of them is large and mostly empty (more than 64 MiB dense with under 60 % of its bricks occupied), or if
+/// they need more than kMaxTexels voxels together.
 /// @param media       in the order of the records to write; none of them empty.
 /// @param worldOrigin subtracted from every placement.
 /// @param memoryLimitBytes  for the arrays written here.

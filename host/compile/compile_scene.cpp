@@ -10,11 +10,23 @@
 #include "compile/compile_geometry.h"
 #include "compile/compile_lights.h"
 #include "compile/compile_media.h"
+#include "compile/compile_textures.h"
 #include "compile/nesting.h"
 
 namespace parhelion {
 
 namespace {
+
+/// Only the ratio of the strategies matters; a path takes one sample of each.
+void compileStrategies(const IntegratorDescription& integrator, const CompileOptions& options, CompiledScene& scene) {
+    const double larger = std::max(integrator.emitterSamples, integrator.scatterSamples);
+    scene.constants.emitterSamples = float(integrator.emitterSamples / larger);
+    scene.constants.scatterSamples = float(integrator.scatterSamples / larger);
+    if (integrator.type == "direct" && options.maxDepth && (*options.maxDepth < 0 || *options.maxDepth > 2))
+        throw InputError(fmt::format(
+            "max_depth must be 0, 1 or 2: the scene asks for direct lighting (integrator \"direct\"); got {}",
+            *options.maxDepth));
+}
 
 void compileIntegrator(const SceneDescription& description, const CompileOptions& options, CompiledScene& scene) {
     const std::int64_t depth = options.maxDepth.value_or(description.integrator.maxDepth);
@@ -29,8 +41,8 @@ void compileIntegrator(const SceneDescription& description, const CompileOptions
     constexpr std::int64_t kUnlimited = shared::kNone;
     scene.constants.maxDepth = depth < 0 ? shared::kNone : std::uint32_t(std::min(depth, kUnlimited));
     scene.constants.rouletteDepth = std::uint32_t(std::min(description.integrator.rouletteDepth, kUnlimited));
-    scene.constants.emitterSamples = float(description.integrator.emitterSamples);
-    scene.constants.scatterSamples = float(description.integrator.scatterSamples);
+    compileStrategies(description.integrator, options, scene);
+    scene.constants.depthLayers = options.depthLayers.value_or(description.integrator.depthLayers);
     scene.sampleCount = description.sampleCount;
     scene.seed = description.seed;
 }
@@ -53,14 +65,16 @@ public:
         scene.constants.camera.inside = keptOrAround(nesting_.camera);
     }
 
-    std::span<const KeptShape> shapes() const { return kept_; }
+    std::span<KeptShape> shapes() { return kept_; }
     std::span<const MediumDescription* const> media() const { return media_; }
 
 private:
-    /// Mitsuba's `path` integrator sees surfaces only.
+    /// Mitsuba's `path` and `direct` integrators see surfaces only.
     void ignoreMediaOfSurfaceIntegrator(const SceneDescription& description, CompiledScene& scene) {
-        if (description.integrator.type != "path" || std::ranges::all_of(emptyMedia_, std::identity{})) return;
-        scene.notes.push_back("the path integrator ignores participating media; volpath simulates them");
+        const std::string& type = description.integrator.type;
+        if (type == "volpath" || std::ranges::all_of(emptyMedia_, std::identity{})) return;
+        scene.notes.push_back(
+            fmt::format("the {} integrator ignores participating media; volpath simulates them", type));
         emptyMedia_.assign(emptyMedia_.size(), true);
     }
 
@@ -155,8 +169,9 @@ CompiledScene compileScene(const SceneDescription& description, const CompileOpt
     std::vector<PlacedShape> placed;
     placed.reserve(description.shapes.size());
     for (const ShapeDescription& shape : description.shapes) placed.push_back(placeShape(shape, scene.worldOrigin));
-    const Selection selection(description, placed, scene);
+    Selection selection(description, placed, scene);
     compileMedia(selection.media(), scene.worldOrigin, limit, scene);
+    compileTextures(description, selection.shapes(), scene);
     const std::vector<EmissiveGeometry> emissive = compileGeometry(selection.shapes(), scene);
     noteCoarsePositions(selection, scene);
     compileLights(description, selection.shapes(), emissive, options.sampleEveryLight, scene);

@@ -64,11 +64,12 @@ struct CompiledScene {
     std::vector<float> filterTable;             ///< 257 offsets in pixels; empty for the box filter
     std::vector<shared::Texture> textures;
     std::vector<glm::vec4> textureTexels;      ///< rgb + unused, all bitmaps one after the other
-    std::vector<glm::vec2> triangleUvs;        ///< 3 a triangle; empty where no textured mesh is
+    std::vector<glm::vec2> triangleUvs;        ///< 3 a triangle; empty where no shape is textured
     std::vector<float> phaseTable;             ///< tabulated phase functions, see Medium.phaseOffset
     std::vector<glm::vec4> environmentTexels;  ///< rgb; w: density per steradian of the cell whose corner it is
     std::vector<glm::uvec2> aliasTable;        ///< (threshold, alias): rows, then cells row by row; or the sky's bands
-    std::vector<glm::vec2> environmentRows;    ///< sin^2 and cos^2 of half the polar angle of each row
+    std::vector<glm::vec2> environmentRows;    ///< of each row of cells: 1 - cos of the angle between the nearer pole
+                                               ///< and the edge nearer to it; how much cos changes over the row
     std::vector<float> skyBands;               ///< density per steradian of each band
     std::vector<glm::vec4> stars;              ///< 2 a star: direction and 1 - cos of its radius; brightness, density
     std::vector<std::uint32_t> starCells;      ///< lookup grid: runs of star indices

@@ -54,6 +54,10 @@ void checkIndices(const ShapeDescription& shape) {
         throw InputError(shape.where, fmt::format("{}: a mesh has no normals or one for each of its {} vertices; got "
                                                   "{}",
                                                   nameOf(shape), mesh.positions.size(), mesh.normals.size()));
+    if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
+        throw InputError(shape.where, fmt::format("{}: a mesh has no texture coordinates or one for each of its {} "
+                                                  "vertices; got {}",
+                                                  nameOf(shape), mesh.positions.size(), mesh.uvs.size()));
 }
 
 /// Divergence theorem, about a vertex of the mesh so that distance costs no digits.

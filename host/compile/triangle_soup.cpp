@@ -29,6 +29,13 @@ constexpr unsigned kCubeFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                        {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 constexpr unsigned kRectangleFace[4] = {0, 1, 3, 2};
 
+/// (u, v) of a corner of a cube on one of the faces above, or of a rectangle (face 6), as Mitsuba has them.
+glm::vec2 cornerUv(int face, unsigned corner) {
+    const auto x = float(corner & 1u), y = float(corner >> 1 & 1u), z = float(corner >> 2 & 1u);
+    const glm::vec2 uvs[] = {{y, z}, {y, 1 - z}, {z, x}, {1 - x, 1 - z}, {1 - y, x}, {y, x}, {x, y}};
+    return uvs[face];
+}
+
 /// World-space shading normal of each vertex; zero where the mesh gives none.
 std::vector<glm::vec3> shadingNormals(const PlacedShape& shape) {
     const ShapeDescription& source = *shape.source;
@@ -49,7 +56,7 @@ std::vector<glm::vec3> shadingNormals(const PlacedShape& shape) {
 
 double areaOf(const TriangleVertices& triangle) { return 0.5 * glm::length(doubledNormal(triangle)); }
 
-void TriangleSoup::addTriangle(const TriangleVertices& triangle, const TriangleVertices& shading,
+void TriangleSoup::addTriangle(const TriangleVertices& triangle, const TriangleVertices& shading, const TriangleUvs& uv,
                                std::uint32_t shapeIndex) {
     if (isDegenerate(triangle)) {
         ++droppedCount;
@@ -58,6 +65,7 @@ void TriangleSoup::addTriangle(const TriangleVertices& triangle, const TriangleV
     const bool smooth = std::ranges::all_of(shading, [](const glm::vec3& n) { return n != glm::vec3(0.0f); });
     vertices.push_back(triangle);
     normals.push_back(smooth ? shading : TriangleVertices{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)});
+    uvs.push_back(uv);
     shapes.push_back(shapeIndex);
     hasNormals |= smooth;
 }
@@ -69,14 +77,20 @@ void TriangleSoup::addMesh(const PlacedShape& shape, std::uint32_t shapeIndex) {
     for (const glm::dvec3& vertex : shape.vertices)
         positions.push_back(toFloat(vertex, source.where, nameOf(source) + ": vertices"));
     const std::vector<glm::vec3> smooth = shadingNormals(shape);
-    for (glm::uvec3 index : source.mesh.triangles) {
-        if (source.flipNormals) std::swap(index.y, index.z);
+    for (const glm::uvec3& index : source.mesh.triangles) {
         TriangleVertices corners, shading{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
+        TriangleUvs uv{glm::vec2(0.0f, 0.0f), glm::vec2(1.0f, 0.0f), glm::vec2(0.0f, 1.0f)};
         for (int k = 0; k < 3; ++k) {
             corners[k] = positions[index[k]];
             if (!smooth.empty()) shading[k] = smooth[index[k]];
+            if (!source.mesh.uvs.empty()) uv[k] = glm::vec2(source.mesh.uvs[index[k]]);
         }
-        addTriangle(corners, shading, shapeIndex);
+        if (source.flipNormals) {
+            std::swap(corners[1], corners[2]);
+            std::swap(shading[1], shading[2]);
+            std::swap(uv[1], uv[2]);
+        }
+        addTriangle(corners, shading, uv, shapeIndex);
     }
 }
 
@@ -88,12 +102,18 @@ void TriangleSoup::addFlat(const PlacedShape& shape, std::uint32_t shapeIndex) {
     const TriangleVertices flat{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
     for (int face = 0; face < (isCube ? 6 : 1); ++face) {
         std::array<glm::vec3, 4> corners;
-        for (int k = 0; k < 4; ++k)
-            corners[k] = toFloat(shape.vertices[isCube ? kCubeFaces[face][k] : kRectangleFace[k]], shape.source->where,
-                                 nameOf(*shape.source) + ": corners");
-        if (reverse) std::swap(corners[1], corners[3]);
-        addTriangle({corners[0], corners[1], corners[2]}, flat, shapeIndex);
-        addTriangle({corners[0], corners[2], corners[3]}, flat, shapeIndex);
+        std::array<glm::vec2, 4> uv;
+        for (int k = 0; k < 4; ++k) {
+            const unsigned corner = isCube ? kCubeFaces[face][k] : kRectangleFace[k];
+            corners[k] = toFloat(shape.vertices[corner], shape.source->where, nameOf(*shape.source) + ": corners");
+            uv[k] = cornerUv(isCube ? face : 6, corner);
+        }
+        if (reverse) {
+            std::swap(corners[1], corners[3]);
+            std::swap(uv[1], uv[3]);
+        }
+        addTriangle({corners[0], corners[1], corners[2]}, flat, {uv[0], uv[1], uv[2]}, shapeIndex);
+        addTriangle({corners[0], corners[2], corners[3]}, flat, {uv[0], uv[2], uv[3]}, shapeIndex);
     }
 }
 

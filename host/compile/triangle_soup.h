@@ -8,10 +8,13 @@
 
 namespace parhelion {
 
+using TriangleUvs = std::array<glm::vec2, 3>;
+
 /// Triangles of all shapes, in float, before the BVH orders them.
 struct TriangleSoup {
     std::vector<TriangleVertices> vertices;
     std::vector<TriangleVertices> normals;  ///< unit shading normals; all zero: flat
+    std::vector<TriangleUvs> uvs;           ///< without coordinates in a mesh: (0, 0), (1, 0), (0, 1), as Mitsuba
     std::vector<std::uint32_t> shapes;      ///< shape index of each
     std::size_t droppedCount = 0;           ///< triangles of zero area
     bool hasNormals = false;
@@ -22,7 +25,8 @@ struct TriangleSoup {
     void add(const PlacedShape& shape, std::uint32_t shapeIndex);
 
 private:
-    void addTriangle(const TriangleVertices& triangle, const TriangleVertices& shading, std::uint32_t shapeIndex);
+    void addTriangle(const TriangleVertices& triangle, const TriangleVertices& shading, const TriangleUvs& uv,
+                     std::uint32_t shapeIndex);
     void addMesh(const PlacedShape& shape, std::uint32_t shapeIndex);
     void addFlat(const PlacedShape& shape, std::uint32_t shapeIndex);
 };

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <string_view>
 
 #include "base/files.h"
 #include "base/memory.h"
@@ -47,10 +49,60 @@ float fromSrgb(float value) { return value <= 0.04045f ? value / 12.92f : std::p
 
 /// @throws InputError before a damaged header makes the decoder ask for what the machine has not.
 void requireSize(const std::filesystem::path& file, int width, int height) {
+    if (width < 1 || height < 1)
+        throw InputError({file.string()},
+                         fmt::format("a bitmap must have at least one texel; got {} x {}", width, height));
     const double bytes = 2.0 * width * height * (sizeof(glm::vec3) + 3 * sizeof(float));
     if (bytes > static_cast<double>(physicalMemoryBytes()))
         throw InputError({file.string()},
                          fmt::format("a bitmap must fit into half of the memory; got {} x {} texels", width, height));
+}
+
+/// stb_image fills what a cut JPEG lacks: a whole one has its end marker after the last start of a scan.
+bool isCutJpeg(const std::vector<std::byte>& content) {
+    const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
+    if (!text.starts_with("\xff\xd8")) return false;
+    const std::size_t scan = text.rfind("\xff\xda");
+    return scan == std::string_view::npos || text.find("\xff\xd9", scan) == std::string_view::npos;
+}
+
+/// Bytes for stb_image, which takes what lies beyond the end of an HDR file for zeros, and a run of length zero for no
+/// reason to stop: line feeds follow the end here, which it does come to an end with.
+struct ByteSource {
+    const std::vector<std::byte>& content;
+    std::size_t at = 0;
+    bool isExhausted = false;  ///< more was asked for than there is
+
+    static int read(void* source, char* target, int size) {
+        constexpr int kBuffer = 128;  // stb_image's, which it fills as far as it can; all else it needs in full
+        auto& self = *static_cast<ByteSource*>(source);
+        const std::size_t count = std::min(std::size_t(size), self.content.size() - self.at);
+        std::memcpy(target, self.content.data() + self.at, count);
+        self.at += count;
+        if (int(count) == size || (count > 0 && size == kBuffer)) return int(count);
+        self.isExhausted = true;
+        std::memset(target + count, '\n', std::size_t(size) - count);
+        return size;
+    }
+    static void skip(void* source, int count) {
+        auto& self = *static_cast<ByteSource*>(source);
+        self.at = std::min(self.at + std::size_t(std::max(count, 0)), self.content.size());
+    }
+    static int isAtEnd(void* source) {
+        const auto& self = *static_cast<ByteSource*>(source);
+        return self.at >= self.content.size();
+    }
+};
+
+/// Colours of a Radiance HDR file, 3 a texel; null if it is damaged or cut.
+std::unique_ptr<float, decltype(&std::free)> decodeHdr(const std::vector<std::byte>& content) {
+    ByteSource source{content};
+    const stbi_io_callbacks callbacks{&ByteSource::read, &ByteSource::skip, &ByteSource::isAtEnd};
+    int width = 0, height = 0, channels = 0;
+    float* values = stbi_loadf_from_callbacks(&callbacks, &source, &width, &height, &channels, 3);
+    std::unique_ptr<float, decltype(&std::free)> result(values, &std::free);
+    if (source.isExhausted) result.reset();
+    return result;
 }
 
 Bitmap fromStb(const std::filesystem::path& file, const std::vector<std::byte>& content, BitmapEncoding encoding) {
@@ -62,14 +114,14 @@ Bitmap fromStb(const std::filesystem::path& file, const std::vector<std::byte>& 
                                      "with: {}",
                                      stbi_failure_reason()));
     };
+    if (isCutJpeg(content)) throw InputError({file.string()}, "must be a whole .jpg file; got one without its end");
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(bytes, length, &width, &height, &channels)) fail();
     requireSize(file, width, height);
     Bitmap bitmap{{unsigned(width), unsigned(height)}, std::vector<glm::vec3>(std::size_t(width) * height)};
     if (stbi_is_hdr_from_memory(bytes, length)) {
-        const std::unique_ptr<float, decltype(&std::free)> values(
-            stbi_loadf_from_memory(bytes, length, &width, &height, &channels, 3), &std::free);
-        if (!values) fail();
+        const auto values = decodeHdr(content);
+        if (!values) throw InputError({file.string()}, "must be a whole .hdr file; got one that is damaged or cut");
         std::memcpy(bitmap.texels.data(), values.get(), bitmap.texels.size() * sizeof(glm::vec3));
         return bitmap;
     }

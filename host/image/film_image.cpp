@@ -35,6 +35,17 @@ void addRadiance(Image& image, const Film& film) {
     fillChannel(image, "sampleCount.Y", [n](std::size_t) { return n; });
 }
 
+void addDepthLayers(Image& image, const Film& film) {
+    const double n = static_cast<double>(film.samples);
+    for (std::uint32_t layer = 0; layer < film.depthLayers; ++layer)
+        for (int c = 0; c < 3; ++c)
+            fillChannel(image, "depth" + std::to_string(layer) + "." + kColours[c],
+                        [&film, n, layer, c](std::size_t i) {
+                            const shared::LayerPixel& pixel = film.layers[i * film.depthLayers + layer];
+                            return (double{pixel.sumHigh[c]} + double{pixel.sumLow[c]}) / n;
+                        });
+}
+
 void addFeatures(Image& image, const Film& film) {
     const double n = static_cast<double>(film.featureSamples);
     for (int c = 0; c < 3; ++c) {
@@ -55,6 +66,7 @@ Image toImage(const Film& film) {
     if (film.samples == 0) throw RuntimeFailure("a film without samples has no mean");
     Image image{.size = film.crop.size, .channels = {}, .attributes = {}};
     addRadiance(image, film);
+    addDepthLayers(image, film);
     if (film.featureSamples > 0 && !film.features.empty()) addFeatures(image, film);
     if (film.crop.size != film.filmSize)
         image.attributes = {{"cropX", std::int64_t{film.crop.offset.x}},

@@ -12,6 +12,10 @@ namespace parhelion {
 ///   sample a pixel. The float32 squares limit it to about 2^-24 mean^2 / (n - 1): a constant pixel may show that much.
 /// - albedo.R, .G, .B, normal.X, .Y, .Z: means over the feature samples, misses counted as 0.
 /// - depth.Z: mean distance of the feature samples that hit a surface, scene units; 0 where none did.
+/// - depth0.R, .G, .B, depth1.R, ...: mean radiance by number of scatterings, the last for all above; only where the
+/// film
+///   has such layers. They sum to R, G, B but for rounding, and for what a sample that was not finite had brought
+///   before.
 /// - sampleCount.Y: samples per pixel (float32: exact up to 2^24).
 ///
 /// The image covers film.crop. When that is not the whole film, integer attributes cropX, cropY, filmWidth and

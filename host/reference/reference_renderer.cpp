@@ -44,9 +44,10 @@ void renderPass(const SceneView<Real>& scene, const RenderSettings& settings, st
                 Film& film) {
     forEachPixel(film, [&](glm::uvec2 pixel, std::size_t index, Counters& counters) {
         NoTrace trace;
+        shared::LayerPixel* layers = film.layers.empty() ? nullptr : &film.layers[index * film.depthLayers];
         for (std::uint64_t s = first; s < first + count; ++s)
-            accumulate(film.pixels[index], tracePath(scene, settings.quality, settings.seed, pixel, s, counters, trace),
-                       counters);
+            accumulate(film.pixels[index],
+                       tracePath(scene, settings.quality, settings.seed, pixel, s, counters, trace, layers), counters);
     });
     film.samples += count;
 }
@@ -65,6 +66,8 @@ Film render(const CompiledScene& scene, const RenderSettings& settings, const st
     film.crop = {scene.cropOffset, scene.cropSize};
     film.pixels.resize(std::size_t(scene.cropSize.x) * scene.cropSize.y);
     film.features.resize(film.pixels.size());
+    film.depthLayers = scene.constants.depthLayers;
+    film.layers.resize(film.pixels.size() * film.depthLayers);
     renderFeatures(view, settings, film);
     std::uint64_t passSamples = 1;
     while (film.samples < settings.sampleCount && !(stop && *stop)) {

@@ -22,22 +22,29 @@ std::vector<gpu::Binding> withBuffers(std::vector<gpu::Binding> bindings, std::i
 }  // namespace
 
 PathTracePass::PathTracePass(gpu::Device& device, const DeviceScene& deviceScene, const gpu::Specialisation& constants,
-                             std::span<const Batch> batches)
+                             std::span<const Batch> batches, std::uint32_t depthLayers)
     : device_(device),
       scene_(deviceScene),
       batches_(batches.begin(), batches.end()),
+      depthLayers_(depthLayers),
       paths_(device.createBuffer(std::size_t{batches.front().laneCount} * shared::kPathStateWords * 4)),
       counterBuffer_(device.createBuffer(shared::kCounterCount * 4)),
       pipeline_(device, gpu::shaderFolder() / "kernels/path_trace.comp", constants) {
     for (const Batch& batch : batches_)
         films_.push_back(device.createBuffer(std::size_t{batch.laneCount} * sizeof(shared::FilmPixel)));
+    if (depthLayers == 0) layers_.push_back(device.createBuffer(sizeof(shared::LayerPixel)));
+    for (std::size_t i = 0; depthLayers > 0 && i < batches_.size(); ++i)
+        layers_.push_back(
+            device.createBuffer(std::size_t{batches_[i].laneCount} * depthLayers * sizeof(shared::LayerPixel)));
     bindFilm(0);
 }
 
 void PathTracePass::bindFilm(std::size_t batch) {
+    const std::size_t layer = depthLayers_ == 0 ? 0 : batch;
     pipeline_.bind(withBuffers(scene_.bindings(), {{.index = 12, .buffer = films_[batch].handle()},
                                                    {.index = 13, .buffer = paths_.handle()},
-                                                   {.index = 14, .buffer = counterBuffer_.handle()}}));
+                                                   {.index = 14, .buffer = counterBuffer_.handle()},
+                                                   {.index = 26, .buffer = layers_[layer].handle()}}));
     bound_ = batch;
 }
 
@@ -61,6 +68,16 @@ std::vector<shared::FilmPixel> PathTracePass::film() {
     for (gpu::Buffer& film : films_) {
         const auto pixels = film.as<shared::FilmPixel>();
         all.insert(all.end(), pixels.begin(), pixels.end());
+    }
+    return all;
+}
+
+std::vector<shared::LayerPixel> PathTracePass::layers() {
+    std::vector<shared::LayerPixel> all;
+    for (gpu::Buffer& buffer : layers_) {
+        if (depthLayers_ == 0) break;
+        const auto layers = buffer.as<shared::LayerPixel>();
+        all.insert(all.end(), layers.begin(), layers.end());
     }
     return all;
 }

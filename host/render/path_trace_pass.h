@@ -20,7 +20,7 @@ class PathTracePass {
 public:
     /// A film of any size: each batch has a buffer of its own, within what the device can bind.
     PathTracePass(gpu::Device& device, const DeviceScene& deviceScene, const gpu::Specialisation& constants,
-                  std::span<const Batch> batches);
+                  std::span<const Batch> batches, std::uint32_t depthLayers);
 
     /// Runs one dispatch over a batch. Returns device milliseconds; counters of the dispatch are in counters().
     double run(std::size_t batch, const shared::PathArguments& arguments);
@@ -29,6 +29,8 @@ public:
     std::span<const std::uint32_t> samplesDone(std::size_t batch);
     /// All batches' pixels, in crop order.
     std::vector<shared::FilmPixel> film();
+    /// Their layers by number of scatterings, in the same order; none if there are none.
+    std::vector<shared::LayerPixel> layers();
     /// Words the loop of one turn may spend beyond its budget: what loopBudget must leave of the driver's 65535.
     static constexpr std::uint32_t kMaximumLoopBudget = 12000;
 
@@ -36,8 +38,10 @@ private:
     gpu::Device& device_;
     const DeviceScene& scene_;
     std::vector<Batch> batches_;
+    std::uint32_t depthLayers_;
     std::vector<gpu::Buffer> films_;
-    std::size_t bound_ = 0;  // batch whose film the pipeline points at
+    std::vector<gpu::Buffer> layers_;  // one that nothing uses, if there are no layers
+    std::size_t bound_ = 0;            // batch whose film the pipeline points at
     gpu::Buffer paths_, counterBuffer_;
     gpu::ComputePipeline pipeline_;
     std::array<std::uint32_t, shared::kCounterCount> counters_{};

@@ -39,7 +39,7 @@ struct Renderer::State {
           constants(specialise(scene_, settings_.effects, settings_.quality)),
           deviceScene(device_, scene_),
           batches(batchesOf(scene_.cropSize, maximumLanes(device_))),
-          pass(device_, deviceScene, constants, batches) {}
+          pass(device_, deviceScene, constants, batches, scene_.constants.depthLayers) {}
 
     gpu::Device& device;
     const CompiledScene& scene;
@@ -194,6 +194,8 @@ Film Renderer::film() {
     film.samples = s.windowStart;
     if (s.windowSize != 0) film.pixelSamples = s.samplesByPixel();
     film.pixels = s.pass.film();
+    film.depthLayers = s.scene.constants.depthLayers;
+    film.layers = s.pass.layers();
     film.counters = s.counters;
     film.features = renderFeatures(s.device, s.scene, s.deviceScene, s.settings, s.constants);
     film.featureSamples = s.settings.featureSamples;

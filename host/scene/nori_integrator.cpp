@@ -34,6 +34,8 @@ void readNoriIntegrator(ReadContext& context, const XmlElement& element) {
         integrator.maxDepth = reader.integer("maxDepth", -1, -1, kDeepest);
         integrator.rouletteDepth = reader.integer("rrDepth", 5, 1, kDeepest);
     }
+    integrator.depthLayers =
+        unsigned(reader.integer("depthLayers", 0, 0, std::int64_t{IntegratorDescription::kMostDepthLayers}));
     reader.finish();
 }
 

@@ -54,16 +54,19 @@ SourceLocation PropertyReader::whereOf(std::string_view name) const {
     return value && isPropertyTag(entry->element->tag) ? value->where : entry->where;
 }
 
+void PropertyReader::remember(std::string_view name) {
+    if (std::ranges::find(known_, name) == known_.end()) known_.emplace_back(name);
+}
+
 const XmlElement* PropertyReader::take(std::string_view name, const std::vector<std::string_view>& tags) {
-    known_.emplace_back(name);
+    remember(name);
     const auto entry = std::ranges::find(entries_, name, &Entry::name);
     if (entry == entries_.end()) return nullptr;
     entry->used = true;
     const XmlElement& element = *entry->element;
     if (std::ranges::find(tags, element.tag) != tags.end()) return &element;
     if (element.tag == "texture")
-        fail(entry->where, fmt::format("texture plugin \"{}\" is not supported; \"{}\" takes <{}>",
-                                       element.require("type").value, name, fmt::join(tags, ">, <")));
+        fail(entry->where, fmt::format("\"{}\" cannot be a texture; it takes <{}>", name, fmt::join(tags, ">, <")));
     fail(entry->where, fmt::format("\"{}\" must be a <{}>; got <{}>", name, fmt::join(tags, "> or <"), element.tag));
 }
 
@@ -134,6 +137,12 @@ PropertyReader::Transform PropertyReader::transform(std::string_view name) {
     return {readTransform(*property), property->where};
 }
 
+PropertyReader::Transform PropertyReader::flatTransform(std::string_view name) {
+    const XmlElement* property = take(name, {"transform"});
+    if (!property) return {glm::dmat4(1.0), object_.where};
+    return {readFlatTransform(*property), property->where};
+}
+
 const XmlAttribute* PropertyReader::text(std::string_view name) {
     const XmlElement* property = take(name, {"string"});
     return property ? &property->require("value") : nullptr;
@@ -165,7 +174,7 @@ std::optional<PropertyReader::Nested> PropertyReader::onlyNested(std::string_vie
 }
 
 std::optional<PropertyReader::Nested> PropertyReader::namedNested(std::string_view name, std::string_view tag) {
-    known_.emplace_back(name);
+    remember(name);
     for (Entry& entry : entries_) {
         if (entry.element->tag != tag || entry.name != name) continue;
         entry.used = true;
@@ -181,8 +190,7 @@ void PropertyReader::finish() const {
     if (!isObjectTag(tag))
         fail(unknown->where, fmt::format("unknown property \"{}\"{}", unknown->name, suggest(unknown->name, known_)));
     if (tag == "texture")
-        fail(unknown->where, fmt::format("texture plugin \"{}\" is not supported; use <rgb>, <float> or <spectrum>",
-                                         unknown->element->require("type").value));
+        fail(unknown->where, fmt::format("unknown property \"{}\"{}", unknown->name, suggest(unknown->name, known_)));
     if (!unknown->name.empty() && std::ranges::find(knownObjects_, tag) == knownObjects_.end())
         fail(unknown->where,
              fmt::format("<{}> \"{}\" is not allowed here{}", tag, unknown->name, suggest(unknown->name, known_)));

@@ -68,6 +68,7 @@ public:
     /// From <point> or <vector>.
     glm::dvec3 triple(std::string_view name, glm::dvec3 fallback);
     Transform transform(std::string_view name);
+    Transform flatTransform(std::string_view name);  ///< which need not be invertible
 
     /// The string property, or null. The pointer lives as long as the tree.
     const XmlAttribute* text(std::string_view name);
@@ -99,6 +100,7 @@ private:
 
     void checkNamesDiffer() const;
     const Entry* find(std::string_view name) const;
+    void remember(std::string_view name);
     /// The property's element if given; marks it as used. Its tag must be one of `tags`.
     const XmlElement* take(std::string_view name, const std::vector<std::string_view>& tags);
     void checkRange(const XmlElement& property, std::string_view name, double value, const NumberRange& range) const;

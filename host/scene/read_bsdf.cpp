@@ -1,5 +1,7 @@
 #include "scene/read_bsdf.h"
 
+#include "scene/read_textures.h"
+
 namespace parhelion {
 namespace {
 
@@ -19,14 +21,17 @@ BsdfDescription readTwoSided(ReadContext& context, PropertyReader& reader) {
 BsdfDescription readBsdf(ReadContext& context, const XmlElement& element) {
     PropertyReader reader(context.tree, element);
     BsdfDescription bsdf;
-    if (reader.type() == "diffuse")
-        bsdf.reflectance = reader.color("reflectance", 0.5, kUnitInterval);
-    else if (reader.type() == "null")
+    if (reader.type() == "diffuse") {
+        const TexturedColor reflectance = readTexturedColor(context, reader, "reflectance", 0.5, kUnitInterval);
+        bsdf.reflectance = reflectance.color;
+        bsdf.texture = reflectance.texture;
+    } else if (reader.type() == "null") {
         bsdf.type = BsdfDescription::Type::Null;
-    else if (reader.type() == "twosided")
+    } else if (reader.type() == "twosided") {
         bsdf = readTwoSided(context, reader);
-    else
+    } else {
         reader.rejectType({"diffuse", "null", "twosided"});
+    }
     bsdf.where = reader.where();
     reader.finish();
     return bsdf;

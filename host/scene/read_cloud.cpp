@@ -41,6 +41,9 @@ void readModulation(ReadContext& context, PropertyReader& reader, const Property
                                     name));
     ReadVolume base = readVolumePlugin(context, *nested.element, VolumeRole::Extinction);
     if (!base.grid || base.grid->cloud) reader.fail(nested.where, "the density to modulate must be a gridvolume");
+    if (base.grid->volume.channels != 1)
+        reader.fail(nested.where, fmt::format("the density to modulate must be a grid of one channel; {} has {}",
+                                              base.grid->volume.source, base.grid->volume.channels));
     shared::CloudField& field = *placement.cloud;
     const glm::uvec3 n = base.grid->volume.density.resolution();
     const std::int64_t longest = std::max({n.x, n.y, n.z});

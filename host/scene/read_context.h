@@ -18,6 +18,7 @@ struct ReadContext {
     SceneDescription& scene;
     std::map<const XmlElement*, std::size_t> mediumIndices;  ///< of the media read so far
     std::set<const XmlElement*> volumesRead;
+    std::map<const XmlElement*, std::size_t> textureIndices = {};  ///< of the textures read so far
 
     /// Tells the user of something that was accepted but has no effect.
     void note(const SourceLocation& where, std::string_view text) {

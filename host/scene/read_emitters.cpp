@@ -3,12 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/read_textures.h"
+#include "scene/transforms.h"
 #include "shared/scene_types.h"
 
 namespace parhelion {
 namespace {
 
-const std::vector<std::string> kSceneEmitters{"constant", "directional", "point", "sky"};
+const std::vector<std::string> kSceneEmitters{"constant", "directional", "envmap", "point", "sky"};
 
 /// Accepts Mitsuba's weight for choosing lights. Light selection here follows from power alone.
 void readSamplingWeight(ReadContext& context, PropertyReader& reader) {
@@ -46,7 +48,7 @@ void readPoint(PropertyReader& reader, EmitterDescription& emitter) {
 void rejectSecondSurrounding(const ReadContext& context, const PropertyReader& reader) {
     using Type = EmitterDescription::Type;
     for (const EmitterDescription& other : context.scene.emitters)
-        if (other.type == Type::Constant || other.type == Type::Sky)
+        if (other.type != Type::Directional && other.type != Type::Point)
             reader.fail(reader.where(),
                         fmt::format("only one emitter may surround the scene; the first is at {}", other.where.text()));
 }
@@ -55,6 +57,22 @@ void readConstant(const ReadContext& context, PropertyReader& reader, EmitterDes
     rejectSecondSurrounding(context, reader);
     emitter.type = EmitterDescription::Type::Constant;
     emitter.value = reader.color("radiance", 1.0, kNonNegative);
+}
+
+void readEnvironmentMap(ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
+    rejectSecondSurrounding(context, reader);
+    emitter.type = EmitterDescription::Type::EnvironmentMap;
+    emitter.value = glm::dvec3(reader.number("scale", 1.0, kNonNegative));
+    emitter.misCompensation = reader.boolean("mis_compensation", false);
+    emitter.toWorld = reader.transform("to_world").matrix;
+    const Similarity similarity = similarityOf(emitter.toWorld);
+    if (!similarity.holds || std::abs(similarity.scale - 1.0) > 1e-4)
+        reader.fail(reader.whereOf("to_world"), "\"to_world\" of an environment map must not scale or shear");
+    if (glm::dvec3(emitter.toWorld[3]) != glm::dvec3(0.0))
+        context.note(reader.whereOf("to_world"),
+                     "the translation of an environment map, infinitely far away, has no effect");
+    const std::filesystem::path file = reader.file("filename");
+    emitter.map = readBitmap(file, reader.whereOf("filename"));
 }
 
 void readStars(PropertyReader& reader, SkyDescription& sky) {
@@ -102,6 +120,8 @@ void readEmitter(ReadContext& context, const XmlElement& element) {
     emitter.where = reader.where();
     if (reader.type() == "constant")
         readConstant(context, reader, emitter);
+    else if (reader.type() == "envmap")
+        readEnvironmentMap(context, reader, emitter);
     else if (reader.type() == "sky")
         readSky(context, reader, emitter);
     else if (reader.type() == "directional")
@@ -120,7 +140,9 @@ void readEmitter(ReadContext& context, const XmlElement& element) {
 void readAreaEmitter(ReadContext& context, const XmlElement& element, ShapeDescription& shape) {
     PropertyReader reader(context.tree, element);
     if (reader.type() != "area") reader.rejectType({"area"});
-    shape.radiance = reader.color("radiance", 1.0, kNonNegative);
+    const TexturedColor radiance = readTexturedColor(context, reader, "radiance", 1.0, kNonNegative);
+    shape.radiance = radiance.color;
+    shape.radianceTexture = radiance.texture;
     shape.emitsOnBothSides = reader.boolean("two_sided", false);
     readSamplingWeight(context, reader);
     reader.finish();

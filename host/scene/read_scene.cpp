@@ -7,6 +7,7 @@
 #include "scene/read_phase.h"
 #include "scene/read_sensor.h"
 #include "scene/read_shapes.h"
+#include "scene/read_textures.h"
 #include "scene/read_volumes.h"
 #include "scene/scene_description.h"
 #include "scene/scene_tree.h"
@@ -15,17 +16,13 @@ namespace parhelion {
 namespace {
 
 [[noreturn]] void rejectAtSceneLevel(const XmlElement& element) {
-    const XmlAttribute& type = element.require("type");
-    if (element.tag == "texture")
-        throw InputError(type.where, fmt::format("texture plugin \"{}\" is not supported; reflectance takes <rgb>, "
-                                                 "<float> or <spectrum>",
-                                                 type.value));
     throw InputError(element.where,
                      fmt::format("<{}> must be nested: film and sampler in <sensor>, rfilter in <film>", element.tag));
 }
 
 /// Reads the objects at scene level that have no effect by themselves. What shapes refer to is read there; the rest is
-/// checked all the same, so that no mistake goes unnoticed. Media come before volumes, which they refer to.
+/// checked all the same, so that no mistake goes unnoticed. Media come before volumes, which they refer to, and
+/// surfaces before textures.
 void checkSharedObjects(ReadContext& context, const std::vector<const XmlElement*>& elements) {
     for (const XmlElement* element : elements) {
         if (element->tag == "bsdf") {
@@ -36,13 +33,18 @@ void checkSharedObjects(ReadContext& context, const std::vector<const XmlElement
             if (context.mediumIndices.contains(element)) continue;
             readMedium(context, *element);
             context.note(element->where, "the medium is used by no shape");
-        } else if (element->tag != "volume") {
+        } else if (element->tag != "volume" && element->tag != "texture") {
             rejectAtSceneLevel(*element);
         }
     }
-    for (const XmlElement* element : elements)
+    for (const XmlElement* element : elements) {
+        if (element->tag == "texture" && !context.textureIndices.contains(element)) {
+            textureIndex(context, *element);
+            context.note(element->where, "the texture is used by nothing");
+        }
         if (element->tag == "volume" && !context.volumesRead.contains(element))
             context.note(element->where, "the volume is used by no medium, and was not read");
+    }
 }
 
 void readObjects(ReadContext& context, const XmlElement& root) {

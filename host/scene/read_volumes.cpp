@@ -19,14 +19,6 @@ void checkAlbedoGrid(const PropertyReader& reader, const Volume& volume) {
                     fmt::format("albedo must be in [0, 1] everywhere; {} has {}", volume.source, largest));
 }
 
-void checkChannels(const PropertyReader& reader, const Volume& volume, VolumeRole role) {
-    if (role == VolumeRole::Extinction && volume.channels != 1)
-        reader.fail(reader.whereOf("filename"),
-                    fmt::format("sigma_t must be a grid of one channel; {} has {} (coloured extinction can be given by "
-                                "sigma_t as <rgb>)",
-                                volume.source, volume.channels));
-}
-
 /// Grid-local [0, 1]^3 to the file's bounding box.
 glm::dmat4 boundsTransform(const PropertyReader& reader, const Volume& volume) {
     const glm::dvec3 extent = volume.boundsMax - volume.boundsMin;
@@ -54,7 +46,6 @@ GridPlacement readGrid(ReadContext& context, PropertyReader& reader, VolumeRole 
     reader.finish();
 
     placement.volume = readVolume(file, reader.whereOf("filename"), options);
-    checkChannels(reader, placement.volume, role);
     if (role == VolumeRole::Albedo) checkAlbedoGrid(reader, placement.volume);
     if (useBounds) placement.toWorld = placement.toWorld * boundsTransform(reader, placement.volume);
     if (!placement.volume.note.empty()) context.note(reader.whereOf("filename"), placement.volume.note);

@@ -45,9 +45,11 @@ struct IntegratorDescription {
     std::string type = "volpath";  ///< direct | path | volpath; direct: `path` of depth 2 with the samples below
     double emitterSamples = 1;     ///< direct: weight of light sampling, 0: scattering alone
     double scatterSamples = 1;     ///< direct: weight of scattering, 0: light sampling alone
-    unsigned depthLayers = 0;      ///< film layers by number of scatterings
+    unsigned depthLayers = 0;      ///< film layers by number of scatterings, the last for all above; 0: none
     std::int64_t maxDepth = -1;    ///< Mitsuba's meaning; -1: unlimited
     std::int64_t rouletteDepth = 5;
+
+    static constexpr unsigned kMostDepthLayers = 64;
 };
 
 /// A colour over a surface's (u, v).

@@ -60,7 +60,6 @@ glm::dmat4 readStep(const XmlElement& step) {
 }
 
 void checkInvertible(const glm::dmat4& matrix, const SourceLocation& where) {
-    if (!isFinite(matrix)) throw InputError(where, "transform overflows: its product is not finite");
     // Volume of the image of the unit cube, relative to that of a box with the same edges: 1 for a rotation.
     constexpr double kFlattest = 1e-12;
     const glm::dmat3 linear(matrix);
@@ -82,9 +81,15 @@ glm::dmat4 lookAtMatrix(glm::dvec3 origin, glm::dvec3 target, glm::dvec3 up) {
     return {glm::dvec4(left, 0.0), glm::dvec4(newUp, 0.0), glm::dvec4(direction, 0.0), glm::dvec4(origin, 1.0)};
 }
 
-glm::dmat4 readTransform(const XmlElement& transform) {
+glm::dmat4 readFlatTransform(const XmlElement& transform) {
     glm::dmat4 product(1.0);
     for (const XmlElement& step : transform.children) product = readStep(step) * product;
+    if (!isFinite(product)) throw InputError(transform.where, "transform overflows: its product is not finite");
+    return product;
+}
+
+glm::dmat4 readTransform(const XmlElement& transform) {
+    const glm::dmat4 product = readFlatTransform(transform);
     checkInvertible(product, transform.where);
     return product;
 }

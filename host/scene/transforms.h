@@ -18,6 +18,9 @@ glm::dmat4 lookAtMatrix(glm::dvec3 origin, glm::dvec3 target, glm::dvec3 up);
 /// cannot be inverted.
 glm::dmat4 readTransform(const XmlElement& transform);
 
+/// The same without the last condition: for texture coordinates, which may be flattened.
+glm::dmat4 readFlatTransform(const XmlElement& transform);
+
 /// Whether a linear map keeps angles (rotation, mirroring and uniform scale), to a relative 1e-4; and its scale.
 struct Similarity {
     bool holds;

@@ -64,6 +64,20 @@ float roundedSqrt(float x) {
     return x == 0.0 ? 0.0 : s;
 }
 
+// Angle of (x, y) from the x axis, in (-pi, pi], within 3 ulp; 0 when both are 0. Reduction and coefficients: Cephes atanf
+// (Moshier 1989).
+float angleOf(float y, float x) {
+    float low = min(abs(x), abs(y)), high = max(abs(x), abs(y));
+    bool steep = low > 0.41421356 * high;  // beyond pi / 8
+    float a = steep ? (low - high) / (low + high) : safeDivide(low, high);
+    float z = a * a;
+    float p = a + a * z * (-3.33329491539e-1 + z * (1.99777106478e-1 + z * (-1.38776856032e-1 + z * 8.05374449538e-2)));
+    float angle = steep ? 0.785398163397 + p : p;
+    if (abs(y) > abs(x)) angle = 1.57079632679 - angle;
+    if (x < 0.0) angle = kPi - angle;
+    return y < 0.0 ? -angle : angle;
+}
+
 // (sin, cos) of 2 pi u for u in [0, 1], within 1.5 ulp of the larger one. The reduction is exact:
 // 4 u and its distance from the nearest integer have no rounding.
 vec2 sinCosTurn(float u) {

@@ -23,9 +23,9 @@ layout(set = 0, binding = 16) uniform samplerBuffer textureRecords;     // 6 a t
 layout(set = 0, binding = 17) uniform samplerBuffer textureTexels;      // rgb
 layout(set = 0, binding = 18) uniform samplerBuffer triangleUvTexels;   // 3 a triangle
 layout(set = 0, binding = 19) uniform samplerBuffer phaseTexels;
-layout(set = 0, binding = 20) uniform samplerBuffer environmentTexels;  // rgb; w: density of sampling, see environmentMap
+layout(set = 0, binding = 20) uniform samplerBuffer environmentTexels;  // rgb; w: density of the cell below right
 layout(set = 0, binding = 21) uniform usamplerBuffer aliasTexels;       // of the environment map or the sky
-layout(set = 0, binding = 22) uniform samplerBuffer environmentRows;    // sin^2, cos^2 of half the polar angle
+layout(set = 0, binding = 22) uniform samplerBuffer environmentRows;    // of each row of cells: see README, "Environment map"
 layout(set = 0, binding = 23) uniform samplerBuffer skyBands;           // density of each band per steradian
 layout(set = 0, binding = 24) uniform samplerBuffer starTexels;         // 2 a star
 layout(set = 0, binding = 25) uniform usamplerBuffer starCells;
@@ -43,10 +43,14 @@ Quad nearLightQuad;      // of nearLight, where it is one
 Sphere nearLightSphere;
 vec3 environmentRadiance;
 uint environmentLight;
+EnvironmentMap environmentMap;
 Sky sky;
 uint maxDepth;
 uint rouletteDepth;
 uint triangleCount;
+float emitterSamples;
+float scatterSamples;
+uint depthLayers;
 
 // Shader only: fills the copies; every kernel calls it first.
 void loadScene() {
@@ -65,10 +69,14 @@ void loadScene() {
     nearLightSphere = scene.spheres[min(nearLight.primitive - quadCount, kMaxSpheres - 1u)];
     environmentRadiance = scene.environmentRadiance;
     environmentLight = scene.environment;
+    environmentMap = scene.environmentMap;
     sky = scene.sky;
     maxDepth = scene.maxDepth;
     rouletteDepth = scene.rouletteDepth;
     triangleCount = scene.triangleCount;
+    emitterSamples = scene.emitterSamples;
+    scatterSamples = scene.scatterSamples;
+    depthLayers = scene.depthLayers;
 }
 
 Shape shapeAt(uint index) {

@@ -2,6 +2,7 @@
 #ifndef GEOMETRY_SURFACE_GLSL
 #define GEOMETRY_SURFACE_GLSL
 
+#include "core/math.glsl"
 #include "core/scene.glsl"
 #include "core/unroll.glsl"
 #include "geometry/ray.glsl"
@@ -12,7 +13,16 @@ struct Surface {
     vec3 shadingNormal;    // unit
     vec3 offset;           // along the geometric normal: bound of the position's rounding error
     uint shape;
+    vec2 uv;               // for textures; 0 where the scene has none
 };
+
+const bool hasSurfaceUvs = hasTextures || hasTexturedLights;
+
+vec2 triangleUv(uint index, vec2 uv) {
+    int texel = int(3u * index);
+    return texelFetch(triangleUvTexels, texel).xy * (1.0 - uv.x - uv.y) +
+           texelFetch(triangleUvTexels, texel + 1).xy * uv.x + texelFetch(triangleUvTexels, texel + 2).xy * uv.y;
+}
 
 // Triangle `index`: position, normals and error bound (PBR4 6.8.5).
 Surface triangleSurface(uint index, vec2 uv) {
@@ -31,7 +41,8 @@ Surface triangleSurface(uint index, vec2 uv) {
     }
     vec3 error = 4.2e-7 * (abs(first * a.xyz) + abs(uv.x * b) + abs(uv.y * c));  // 7 roundings of 2^-24
     return Surface(a.xyz * first + b * uv.x + c * uv.y, normal, shading,
-                   normal * (dot(abs(normal), error)), floatBitsToUint(a.w));
+                   normal * (dot(abs(normal), error)), floatBitsToUint(a.w),
+                   hasSurfaceUvs ? triangleUv(index, uv) : vec2(0.0));
 }
 
 // Box: the face whose local coordinate is largest; its gradient is the world normal.
@@ -43,27 +54,52 @@ vec3 boxNormal(Box box, vec3 position) {
     return normalize(face * mat3(box.localFromWorld));
 }
 
+vec2 sphereUv(Sphere s, vec3 n) {
+    vec3 local = vec3(dot(n, s.axisX), s.handedness * dot(n, cross(s.axisZ, s.axisX)), dot(n, s.axisZ));
+    float turn = angleOf(local.y, local.x) * (0.5 * kInvPi);
+    return vec2(turn < 0.0 ? turn + 1.0 : turn, angleOf(length(local.xy), local.z) * kInvPi);
+}
+
+// On the face that boxNormal picks.
+vec2 boxUv(Box box, vec3 position) {
+    vec3 p = box.localFromWorld * vec4(position, 1.0);
+    vec3 a = abs(p);
+    vec2 onX = vec2(p.y, p.x > 0.0 ? -p.z : p.z);
+    vec2 onY = p.y > 0.0 ? vec2(-p.x, -p.z) : vec2(p.z, p.x);
+    vec2 onZ = vec2(p.z > 0.0 ? p.y : -p.y, p.x);
+    return 0.5 + 0.5 * (a.x >= a.y && a.x >= a.z ? onX : a.y >= a.z ? onY : onZ);
+}
+
+// Shader only: within surfaceAt in the reference.
+vec2 quadUv(Quad quad, vec3 position) {
+    vec3 p = position - quad.corner;
+    return vec2(dot(quad.uFromWorld, p), dot(quad.vFromWorld, p));
+}
+
 // Shader only: within surfaceAt in the reference.
 Surface quadSurface(Quad quad, vec3 position) {
-    return Surface(position, quad.normal, quad.normal, vec3(0.0), quad.shape);
+    vec2 uv = hasSurfaceUvs ? quadUv(quad, position) : vec2(0.0);
+    return Surface(position, quad.normal, quad.normal, vec3(0.0), quad.shape, uv);
 }
 
 Surface sphereSurface(Sphere s, vec3 position) {
     vec3 n = normalize(position - s.center);
     vec3 front = (s.flags & kShapeFlipNormal) != 0u ? -n : n;
-    return Surface(s.center + n * s.radius, front, front, vec3(0.0), s.shape);
+    vec2 uv = hasSurfaceUvs ? sphereUv(s, n) : vec2(0.0);
+    return Surface(s.center + n * s.radius, front, front, vec3(0.0), s.shape, uv);
 }
 
 Surface boxSurface(Box b, vec3 position) {
     vec3 n = boxNormal(b, position);
     vec3 front = (b.flags & kShapeFlipNormal) != 0u ? -n : n;
-    return Surface(position, front, front, vec3(0.0), b.shape);
+    vec2 uv = hasSurfaceUvs ? boxUv(b, position) : vec2(0.0);
+    return Surface(position, front, front, vec3(0.0), b.shape, uv);
 }
 
 // The primitive is picked by comparison: that costs less than a gather.
 Surface surfaceAt(Ray ray, Hit hit) {
     vec3 position = ray.origin + ray.direction * hit.t;
-    Surface surface = Surface(position, vec3(0.0), vec3(0.0), vec3(0.0), 0u);
+    Surface surface = Surface(position, vec3(0.0), vec3(0.0), vec3(0.0), 0u, vec2(0.0));
 #define PICK_QUAD(i) \
     if (hit.primitive == i) surface = quadSurface(nearQuads[i], position);
 #define PICK_FAR_QUAD(i) \

@@ -47,7 +47,12 @@ struct DirectLight {
 DirectLight estimateDirect(Scatterer s, vec3 position, vec3 u, uvec4 words, float largestFactor, inout uint tests) {
     LightSample light = sampleLight(position, u, words, tests);
     float value = evalScatterer(s, light.direction);
-    vec3 contribution = light.radianceOverPdf * (value * balanceHeuristic(light.pdf, value));
+    float pdf = light.pdf, scatterPdf = value;
+    if (hasStrategyWeights) {
+        pdf *= emitterSamples;
+        scatterPdf *= scatterSamples;
+    }
+    vec3 contribution = light.radianceOverPdf * (value * balanceHeuristic(pdf, scatterPdf));
     float threshold = min(1.0, shadowRoulette * safeDivide(kInvFourPi, value * largestFactor));
     return DirectLight(contribution, light.direction, light.distance, light.target, threshold);
 }

@@ -6,6 +6,7 @@
 #include "geometry/intersection.glsl"
 #include "integrator/camera.glsl"
 #include "sampling/sampler.glsl"
+#include "surface/texture.glsl"
 
 // Adds one camera ray. Boundaries crossed are bounded by `crossings`; false when it or a traversal cut
 // the ray short.
@@ -23,7 +24,7 @@ bool addFeature(inout FeaturePixel pixel, uvec2 film, vec2 u, inout uint tests, 
                 ray.inside = crossBoundary(ray, hit, surface.shape, shape.exterior, surface.geometricNormal);
                 ray.tMin = hit.t;
             } else {
-                pixel.albedo += shape.reflectance;
+                pixel.albedo += reflectanceAt(shape, surface.uv);
                 pixel.normal += surface.shadingNormal;
                 pixel.depth += hit.t;
                 pixel.hits += 1.0;

@@ -95,6 +95,7 @@ void tracePixel(uint laneId) {
     lane.pixel = arguments.cropOffset + inCrop;
     lane.pixelIndex = lane.pixel.y * arguments.filmSize.x + lane.pixel.x;
     lane.film = film[filmIndex];
+    firstLayer = filmIndex * depthLayers;
     lane.counts = Counts(0u, 0u, 0u, 0u, 0u, true);
     lane.anomalies = uvec3(0u);
     bool restart = arguments.restart != 0u;

@@ -16,7 +16,7 @@ struct Path {
     vec3 beta;             // throughput
     vec3 radiance;
     vec3 pending;          // what the shadow ray brings if nothing is in its way
-    float lastPdf;         // of the last scattering's direction; infinite from the camera
+    float lastPdf;         // of the last scattering's direction, times its samples; infinite from the camera
     vec3 nextDirection;    // of the flight to come, after the shadow ray if there is one
     uvec2 nextExponential; // words of its first exponential
     vec3 vertexPosition;
@@ -26,6 +26,8 @@ struct Path {
 };
 
 layout(set = 0, binding = 13, scalar) buffer PathStates { uint pathStates[]; };
+layout(set = 0, binding = 26, scalar) buffer LayerBlock { LayerPixel layers[]; };
+uint firstLayer;  // of the lane's pixel
 
 // Shader only: the reference never suspends a path.
 void storeWord(inout uint at, uint stride, uint word) {

@@ -2,29 +2,7 @@
 #ifndef INTEGRATOR_VERTEX_GLSL
 #define INTEGRATOR_VERTEX_GLSL
 
-// Emission of the surface hit, weighted against next-event estimation at the vertex before.
-void addEmission(inout Path p, Surface surface, uint lightIndex) {
-    if (lightIndex == kNone || p.vertex >= maxDepth) return;
-    Light light = lightAt(lightIndex);
-    float cosine = lightCosine(light, surface.geometricNormal, -p.ray.direction);
-    float weight = balanceHeuristic(p.lastPdf, lightPdf(light, p.ray.origin, p.hit.t, cosine));
-    if (cosine > 0.0) p.radiance += spectralBeta(p) * light.emission * weight;
-}
-
-void addEnvironment(inout Path p) {
-    if (environmentLight == kNone || p.vertex >= maxDepth) return;
-    vec3 radiance = environmentRadiance;
-    float pdf = kInvFourPi;
-    if (hasSky && scene.lights[environmentLight].type == kLightSky) {
-        SkyPoint point = SkyPoint(p.ray.direction, hasStars ? findStar(p.ray.direction) : kNone);
-        radiance = skyRadiance(point);
-        pdf = skyPdf(point);
-    }
-    float weight = 1.0;
-    if (hasEnvironmentSampling)
-        weight = balanceHeuristic(p.lastPdf, pdf * scene.lights[environmentLight].selection);
-    p.radiance += spectralBeta(p) * radiance * weight;
-}
+#include "integrator/emission.glsl"
 
 // What a vertex scatters with, for the lanes that have one.
 struct Vertex {
@@ -45,7 +23,7 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
     bool alive = p.vertex < maxDepth && largest > 0.0 && toUniform(word.w) < survival;
     p.beta /= survival;
     vec4 next = sampleScatterer(v.scatterer, vec2(toUniform(word.x), toUniform(word.y)));
-    p.lastPdf = next.w;
+    p.lastPdf = hasStrategyWeights ? next.w * scatterSamples : next.w;
     p.nextDirection = next.xyz;
     p.nextExponential = uvec2(word.z, spareBits(word.x, word.y, word.w));
     bool shadow = false;
@@ -53,7 +31,8 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
         uvec4 choice = drawStratified(p.stream, p.vertex, kDrawLight);
         vec3 u = vec3(toUniform(choice.z), toUniform(choice.x), toUniform(choice.y));
         float largestFactor = v.scatterer.surface ? maxComponent(v.factor) : 1.0;
-        uvec4 words = hasSky ? drawStratified(p.stream, p.vertex, kDrawEnvironment) : uvec4(0u);
+        uvec4 words = uvec4(0u);
+        if (hasSky || hasEnvironmentMap) words = drawStratified(p.stream, p.vertex, kDrawEnvironment);
         light = estimateDirect(v.scatterer, p.vertexPosition, u, words, largestFactor, counts.tests);
         p.pending = spectralBeta(p) * light.contribution;
         shadow = maxComponent(p.pending) > 0.0;
@@ -63,8 +42,8 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
 }
 
 // An opaque surface ended the flight: emission, then what scatters.
-Vertex surfaceVertex(inout Path p, Surface surface, Shape shape) {
-    if (hasAreaLights) addEmission(p, surface, shape.light);
+Vertex surfaceVertex(inout Path p, Surface surface, Shape shape, inout vec3 gain) {
+    if (hasAreaLights) addEmission(p, surface, shape.light, gain);
     vec3 wo = -p.ray.direction;
     vec3 normal = surface.shadingNormal;
     if (hasDoubleSided && (shape.flags & kShapeTwoSided) != 0u && dot(normal, wo) < 0.0) normal = -normal;
@@ -72,7 +51,7 @@ Vertex surfaceVertex(inout Path p, Surface surface, Shape shape) {
     p.vertexOffset = surface.offset;
     p.vertexLast = p.hit.primitive;
     p.vertexInside = p.ray.inside;
-    return Vertex(dot(normal, wo) > 0.0, Scatterer(normal, wo, noPhase(), true), shape.reflectance);
+    return Vertex(dot(normal, wo) > 0.0, Scatterer(normal, wo, noPhase(), true), reflectanceAt(shape, surface.uv));
 }
 
 // A real collision at the segment's t.
@@ -99,18 +78,20 @@ uint arrive(inout Path p, inout Vertex vertex) {
     Shape shape = shapeAt(miss ? 0u : surface.shape);
     bool boundary = !miss && (shape.flags & kShapeNull) != 0u;
     uint next = kFinish;
+    vec3 gain = vec3(0.0);
     if (boundary) {
         p.ray.inside = crossBoundary(p.ray, p.hit, surface.shape, shape.exterior, surface.geometricNormal);
         p.ray.tMin = p.hit.t;
         next = kCross;
     } else if (p.segment.shadow) {
-        if (miss) p.radiance += p.pending * p.segment.weight;
+        if (miss) gain = p.pending * p.segment.weight;
         next = kFlight;
     } else if (miss) {
-        if (hasEnvironment) addEnvironment(p);
+        if (hasEnvironment) addEnvironment(p, gain);
     } else if (hasSurfaces) {
-        vertex = surfaceVertex(p, surface, shape);
+        vertex = surfaceVertex(p, surface, shape, gain);
     }
+    addRadiance(p, gain);
     return next;
 }
 

@@ -24,7 +24,7 @@
     X(hasEnvironmentSampling, 14, "environment sampled by next-event estimation") \
     X(hasDeltaLights, 15, "directional and point lights")                       \
     X(hasAreaLights, 16, "area lights")                                         \
-    X(hasManyLights, 17, "more than one sampled light")                         \
+    X(hasManyLights, 17, "more than one sampled or area light")                     \
     X(hasDepthLimit, 18, "path depth limit")                                    \
     X(hasDoubleSided, 19, "two-sided surfaces")                                 \
     X(hasVertexNormals, 20, "interpolated vertex normals")                      \
@@ -39,7 +39,8 @@
     X(hasRayleigh, 29, "Rayleigh phase functions")                              \
     X(hasTabulatedPhase, 30, "tabulated phase functions")                       \
     X(hasColorDensity, 31, "density grids with a value a channel")              \
-    X(hasStrategyWeights, 32, "direct lighting by other than one sample of each strategy") \
-    X(hasTwoSidedLights, 33, "two-sided area lights")
+    X(hasStrategyWeights, 32, "light and scattering samples of unequal weight") \
+    X(hasTwoSidedLights, 33, "two-sided area lights")                           \
+    X(hasDepthLayers, 34, "film layers by number of scatterings")
 
 #endif

@@ -15,6 +15,14 @@ struct FilmPixel {
 };
 SHARED_LAYOUT(FilmPixel, 48);
 
+// A film layer's share of a pixel: what paths of one number of scatterings bring. Layer k of pixel p is
+// at p * SceneConstants.depthLayers + k.
+struct LayerPixel {
+    vec3 sumHigh;  // compensated, as FilmPixel's
+    vec3 sumLow;
+};
+SHARED_LAYOUT(LayerPixel, 24);
+
 // First surface hit along the primary ray, null surfaces excluded; media ignored. Sums over samples.
 struct FeaturePixel {
     vec3 albedo;

@@ -228,9 +228,10 @@ struct SceneConstants {
     uint maxDepth;          // Mitsuba's max_depth; 0xffffffff: unlimited
     uint rouletteDepth;     // Mitsuba's rr_depth
     vec3 environmentRadiance;  // of lights[environment], where that is constant; 0 otherwise
-    float emitterSamples;      // direct lighting: samples of lights and of scattering that the weights assume
-    float scatterSamples;
+    float emitterSamples;      // direct lighting: samples of lights and of scattering that the weights assume;
+    float scatterSamples;      // the larger is 1
     uint textureCount;
+    uint depthLayers;          // film layers by number of scatterings, the last for all above; 0: none
     EnvironmentMap environmentMap;
     Sky sky;
     Quad quads[kMaxQuads];
@@ -240,7 +241,7 @@ struct SceneConstants {
     Light lights[kMaxLights];
     Shape shapes[kMaxInlineShapes];  // the first of the shapes, a copy
 };
-SHARED_LAYOUT(SceneConstants, 48 + 60 + 48 + 80 + 64 * 96 + 256 * 64 + 64 * 64 + 16 * 208 + 256 * 64 + 8 * 32);
+SHARED_LAYOUT(SceneConstants, 48 + 64 + 48 + 80 + 64 * 96 + 256 * 64 + 64 * 64 + 16 * 208 + 256 * 64 + 8 * 32);
 
 // BVH: four texels per inner node: (min0, child0) (max0, 0) (min1, child1) (max1, 0), children
 // bit-cast ints. child >= 0: inner node; child < 0: leaf ~((firstTriangle << 3) | count), count in

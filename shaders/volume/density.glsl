@@ -52,6 +52,34 @@ float densityAt(Medium medium, vec3 pg, vec3 u) {
     return stochasticFilter ? stochasticDensity(medium, pg, u) : trilinearDensity(medium, pg);
 }
 
+// Values of a voxel, one a channel, of a medium with kMediumColorDensity.
+vec3 colorVoxel(Medium medium, uvec3 voxel) {
+    uint index = (voxel.z * medium.resolution.y + voxel.y) * medium.resolution.x + voxel.x;
+    int first = int(medium.voxelOffset + 3u * index);
+    return vec3(texelFetch(densityTexels, first).x, texelFetch(densityTexels, first + 1).x,
+                texelFetch(densityTexels, first + 2).x);
+}
+
+vec3 trilinearColor(Medium medium, vec3 pg) {
+    vec3 s = pg - 0.5;
+    vec3 base = floor(s);
+    vec3 f = s - base;
+    vec3 top = vec3(medium.resolution - 1u);
+    uvec3 a = uvec3(clamp(base, vec3(0.0), top));
+    uvec3 b = uvec3(clamp(base + 1.0, vec3(0.0), top));
+    vec3 x00 = mix(colorVoxel(medium, a), colorVoxel(medium, uvec3(b.x, a.yz)), f.x);
+    vec3 x10 = mix(colorVoxel(medium, uvec3(a.x, b.y, a.z)), colorVoxel(medium, uvec3(b.xy, a.z)), f.x);
+    vec3 x01 = mix(colorVoxel(medium, uvec3(a.xy, b.z)), colorVoxel(medium, uvec3(b.x, a.y, b.z)), f.x);
+    vec3 x11 = mix(colorVoxel(medium, uvec3(a.x, b.yz)), colorVoxel(medium, b), f.x);
+    return mix(mix(x00, x10, f.y), mix(x01, x11, f.y), f.z);
+}
+
+// Density of each channel at pg in voxel units, for media with kMediumColorDensity; all channels from one corner.
+vec3 colorDensityAt(Medium medium, vec3 pg, vec3 u) {
+    if (!stochasticFilter) return trilinearColor(medium, pg);
+    return colorVoxel(medium, stochasticCorner(pg, medium.resolution, u));
+}
+
 // Single-scattering albedo at world position p: the constant, or one corner of the medium's grid.
 vec3 albedoAt(Medium medium, vec3 p, vec3 u) {
     vec3 albedo = medium.albedo;

@@ -70,6 +70,14 @@ bool stepAnalytically(inout Segment s, Medium medium) {
     return analytic;
 }
 
+// Density of each channel.
+// Shader only: within densityHere in the reference.
+vec3 densitiesAt(Medium medium, vec3 pg, vec3 u) {
+    vec3 densities = vec3(densityAt(medium, pg, u));
+    if (hasColorDensity && (medium.flags & kMediumColorDensity) != 0u) densities = colorDensityAt(medium, pg, u);
+    return densities;
+}
+
 // One event: the next tentative collision, the next cell, or the end of the segment.
 // Shader only: nextCollision and its loops in the reference.
 void stepSegment(inout Segment s, Medium medium, GridRay ray, uvec2 key, uint vertex, inout uint violations) {
@@ -86,17 +94,18 @@ void stepSegment(inout Segment s, Medium medium, GridRay ray, uvec2 key, uint ve
     bool collides = depth > s.residual;
     float t = collides ? min(s.t + s.residual / majorant, next) : next;
     uvec4 word = draw(key, vertex, segmentPurpose(s));
-    float density = 1.0;
+    vec3 densities = vec3(1.0);
     if (hasHeterogeneousMedia) {
         // Lanes that only change cells would fetch too, and miss the caches: they all read the first voxel.
         vec3 position = collides ? ray.origin + t * ray.direction : vec3(0.5);
-        float value = densityAt(medium, position, cornerOffsets(word));
-        density = homogeneous ? density : value;
+        vec3 values = densitiesAt(medium, position, cornerOffsets(word));
+        densities = homogeneous ? densities : values;
     }
+    float density = hasColorDensity ? maxComponent(densities) : densities.x;
     s.t = t;
     if (collides) {
         violations += density > bound ? 1u : 0u;
-        vec3 q = vec3(density / bound);
+        vec3 q = hasColorDensity ? densities / bound : vec3(density / bound);
         if (hasChromaticExtinction) q *= medium.sigmaRatio;
         float u = toUniform(word.x);
         if (s.shadow) decideShadow(s, q, u);

@@ -14,6 +14,11 @@ void probeItem() {
             probeOutput(0u, vec4(corner, stochasticDensity(medium, position, u)));
             probeOutput(1u, vec4(trilinearDensity(medium, position), densityAt(medium, position, u), 0.0, 0.0));
             break;
+        case 3u: probeOutput(0u, vec4(colorVoxel(medium, uvec3(position)), 0.0)); break;
+        case 4u:
+            probeOutput(0u, vec4(trilinearColor(medium, position), 0.0));
+            probeOutput(1u, vec4(colorDensityAt(medium, position, u), 0.0));
+            break;
         case 2u: probeOutput(0u, vec4(albedoAt(medium, position, u), 0.0)); break;
     }
 }

@@ -15,7 +15,7 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/density.comp";
-enum Function : std::uint32_t { kVoxel, kLookups, kAlbedo };
+enum Function : std::uint32_t { kVoxel, kLookups, kAlbedo, kColorVoxel, kColorLookups };
 
 /// H23: grids of one voxel and one voxel thick, and a larger one; with albedo grids.
 test::HandScene gridScene() {
@@ -156,6 +156,69 @@ TEST_P(DensityParity, AlbedoIsThatOfTheSameCorner) {
 
 INSTANTIATE_TEST_SUITE_P(Storage, DensityParity, testing::Bool(),
                          [](const auto& info) { return info.param ? "Bricked" : "Dense"; });
+
+/// The grids of gridScene, each with two more values a voxel.
+test::HandScene colorScene() {
+    test::HandScene built = gridScene();
+    Stress stress(21);
+    std::vector<float> interleaved;
+    for (const float value : built.scene.density)
+        for (const float channel : {value, stress.between(0, 1), stress.word() % 3 == 0 ? 0.0f : stress.between(0, 1)})
+            interleaved.push_back(channel);
+    built.scene.density = std::move(interleaved);
+    for (std::uint32_t m = 0; m < built.scene.constants.mediumCount; ++m) {
+        built.medium(m).flags |= shared::kMediumColorDensity;
+        built.medium(m).voxelOffset *= 3;
+    }
+    return built;
+}
+
+TEST(ColorDensityParity, LookupsOfThreeChannelsAgree) {
+    const test::HandScene built = colorScene();
+    const reference::SceneView<double> view(built.scene);
+    Quality quality;
+    quality.stochasticFilter = false;
+    std::vector<glm::vec4> inputs;
+    Stress stress(22);
+    for (std::uint32_t m = 0; m < view.media.size(); ++m)
+        for (int i = 0; i < 6'000; ++i) {
+            glm::vec3 p;
+            for (int axis = 0; axis < 3; ++axis)
+                p[axis] = stress.between(-2, float(view.media[m].resolution[axis]) + 2);
+            inputs.emplace_back(p, glm::uintBitsToFloat(m));
+            inputs.emplace_back(stress.between(0, 1), stress.between(0, 1), stress.between(0, 1), 0);
+        }
+    const auto stochastic = test::SceneProbe(built.scene).run(kShader, kColorLookups, inputs, 2, 2);
+    const auto smooth = test::SceneProbe(built.scene, quality).run(kShader, kColorLookups, inputs, 2, 2);
+    // As for one channel, above.
+    Parity eight("volume/density", "trilinearColor", 3 * (4 + 2 * 32)),
+        any("volume/density", "colorDensityAt", 3 * (4 + 2 * 32));
+    for (std::size_t i = 0; i < inputs.size() / 2; ++i) {
+        const auto& medium = view.media[glm::floatBitsToUint(inputs[2 * i].w)];
+        const glm::dvec3 p(inputs[2 * i]), u(inputs[2 * i + 1]);
+        EXPECT_TRUE(eight.near(stochastic[2 * i], reference::trilinearColor(medium, p), 1)) << i;
+        EXPECT_TRUE(any.near(smooth[2 * i + 1], reference::colorDensityAt(medium, p, u, false), 1)) << i;
+        const glm::dvec3 gap = glm::abs(glm::fract(p - 0.5) - u);
+        if (std::min({gap.x, gap.y, gap.z}) < 4e-6) continue;  // u decides within rounding of the fraction
+        EXPECT_TRUE(any.near(stochastic[2 * i + 1], reference::colorDensityAt(medium, p, u, true))) << i;
+    }
+}
+
+TEST(ColorDensityParity, EveryVoxelIsTheSame) {
+    const test::HandScene built = colorScene();
+    const reference::SceneView<double> view(built.scene);
+    std::vector<glm::vec4> inputs;
+    for (std::uint32_t m = 0; m < view.media.size(); ++m) {
+        const glm::ivec3 n = view.media[m].resolution;
+        for (int i = 0; i < n.x * n.y * n.z; ++i)
+            inputs.emplace_back(i % n.x, i / n.x % n.y, i / n.x / n.y, glm::uintBitsToFloat(m));
+    }
+    const auto outputs = test::SceneProbe(built.scene).run(kShader, kColorVoxel, inputs);
+    Parity parity("volume/density", "colorVoxel", 0);
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+        EXPECT_TRUE(parity.near(
+            outputs[i], reference::colorVoxel(view.media[glm::floatBitsToUint(inputs[i].w)], glm::ivec3(inputs[i]))));
+}
 
 }  // namespace
 }  // namespace parhelion

@@ -137,7 +137,8 @@ std::vector<PathPair> tracePaths(const CompiledScene& onDevice, const CompiledSc
     gpu::Device& device = testDevice();
     const render::DeviceScene deviceScene(device, onDevice);
     const render::Batch batch{.firstPixel = 0, .laneCount = kSize.x * kSize.y};
-    render::PathTracePass pass(device, deviceScene, render::specialise(onDevice, onDevice.effects, {}), {&batch, 1});
+    render::PathTracePass pass(device, deviceScene, render::specialise(onDevice, onDevice.effects, {}), {&batch, 1},
+                               onDevice.constants.depthLayers);
     std::vector<PathPair> all;
     std::vector<glm::dvec3> before(kSize.x * kSize.y, glm::dvec3(0));
     for (const std::uint64_t index : kSampleIndices) {

@@ -110,7 +110,7 @@ TEST_P(LightParity, SampleAgreesForEveryLightH63H65H71) {
     // Warp and basis (10 + 11 in three components) or a point of an area (4) and its difference; normalisation 9.
     Parity direction("light/light", "sampleLight", 3 * 21 + 9);
     // Squares and quotients of these.
-    Parity density("light/light", "sampleArea sampleSphereLight sampleMeshLight", 2 * (3 * 21 + 9));
+    Parity density("light/area_light", "sampleArea sampleSphereLight sampleMeshLight", 2 * (3 * 21 + 9));
     std::array<int, 6> compared{};
     for (std::size_t i = 0; i < inputs.size() / 2; ++i) {
         const glm::dvec3 position(inputs[2 * i]), u(inputs[2 * i + 1]);
@@ -146,7 +146,7 @@ TEST_P(LightParity, ConeOfADistantSphereKeepsItsDigitsH62) {
     for (int i = 0; i < 5'000; ++i)
         inputs.emplace_back(stress.direction() * stress.magnitude(1.1f, 1e6f), stress.magnitude(1e-3f, 1));
     const auto outputs = test::SceneProbe(built_.scene).run(kShader, kCone, inputs, 1, 1);
-    Parity parity("light/light", "oneMinusCosCone", kAllowed);
+    Parity parity("light/area_light", "oneMinusCosCone", kAllowed);
     ErrorMeter naive;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const reference::Sphere<double> sphere{glm::dvec3(inputs[i]), inputs[i].w, 0, false};
@@ -166,7 +166,7 @@ TEST_P(LightParity, CosineAgreesOnBothSides) {
         inputs.emplace_back(stress.direction(), 0);
     }
     const auto outputs = test::SceneProbe(built_.scene).run(kShader, kCosine, inputs, 2, 1);
-    Parity parity("light/light", "lightCosine", 4);  // three products and two sums of terms below 1
+    Parity parity("light/area_light", "lightCosine", 4);  // three products and two sums of terms below 1
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const auto& light = scene_.lights[std::size_t(inputs[2 * i].w)];
         const glm::dvec3 normal(inputs[2 * i]), outgoing(inputs[2 * i + 1]);

@@ -15,7 +15,7 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/math.comp";
-enum Function : std::uint32_t { kDivideAndMax, kLog, kExp, kSinCos, kSqrt };
+enum Function : std::uint32_t { kDivideAndMax, kLog, kExp, kSinCos, kSqrt, kAngle };
 
 std::vector<glm::vec4> firstComponents(const std::vector<float>& values) {
     std::vector<glm::vec4> inputs;
@@ -105,6 +105,33 @@ TEST(MathParity, SinAndCosOfTurnsLoseNothingToTheAngle) {
         naive.add(std::sin(6.28318530718f * inputs[i].x), expected.x, 1);
     }
     EXPECT_GT(naive.worst(), kAllowed);
+}
+
+TEST(MathParity, AnglesKeepTheirDigitsWhereTheDriversDoNot) {
+    // Quotient 1 (its operands 2 more where steep, of an angle of at most pi / 8 in at least pi / 8), polynomial 2,
+    // three sums with constants 1.5 each.
+    constexpr double kAllowed = 9;
+    std::vector<glm::vec4> inputs;
+    Stress stress(8);
+    for (int i = 0; i < 50'000; ++i) {
+        const float small = stress.magnitude(1e-20f, 1), sign = i % 2 ? 1 : -1;
+        glm::vec2 xy = i % 3 ? glm::vec2(stress.between(-1, 1), stress.between(-1, 1)) : glm::vec2(sign, small);
+        if (i % 5 == 0) std::swap(xy.x, xy.y);
+        inputs.emplace_back(i % 7 ? xy : glm::vec2(xy.x, -xy.y), 0, 0);
+    }
+    for (const float x : {-1.0f, -0.0f, 0.0f, 1.0f})
+        for (const float y : {-1.0f, -0.0f, 0.0f, 1.0f}) inputs.emplace_back(x, y, 0, 0);
+    const auto outputs = test::probe(kShader, kAngle, inputs);
+    Parity parity("core/math", "angleOf", kAllowed);
+    ErrorMeter driver;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const double expected = reference::angleOf(double(inputs[i].y), double(inputs[i].x));
+        EXPECT_TRUE(parity.near(outputs[i].x, expected)) << inputs[i].y << " / " << inputs[i].x;
+        driver.add(outputs[i].y, expected);
+    }
+    if (test::testDevice().info().software) {
+        EXPECT_GT(driver.worst(), kAllowed);
+    }
 }
 
 // Also where the driver's root is off by one to either side, which the software driver's never is.

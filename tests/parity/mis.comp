@@ -4,5 +4,6 @@
 
 void probeItem() {
     vec4 pdf = probeInput(0u);
-    probeOutput(0u, vec4(balanceHeuristic(pdf.x, pdf.y), balanceHeuristic(pdf.y, pdf.x), 0.0, 0.0));
+    probeOutput(0u, vec4(balanceHeuristic(pdf.x, pdf.y), balanceHeuristic(pdf.y, pdf.x),
+                         emissionWeight(pdf.x, pdf.y), 0.0));
 }

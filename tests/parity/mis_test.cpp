@@ -41,5 +41,20 @@ TEST(MisParity, BalanceHeuristicIsAWeightForAnyDensitiesH69H70H71) {
     EXPECT_GT(naive.worst(), kAllowed);
 }
 
+TEST(MisParity, EmissionThatLightSamplingNeverFindsCountsInFull) {
+    std::vector<glm::vec4> inputs;
+    const std::vector<float> densities{0, 1e-37f, 1e-10f, 0.7f, 3, 1e10f, 3e38f, INFINITY};
+    for (const float a : densities)
+        for (const float b : densities) inputs.emplace_back(a, b, 0, 0);
+    const auto outputs = test::probe("parity/mis.comp", 0, inputs);
+    Parity parity("sampling/mis", "emissionWeight", kAllowed);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const float a = inputs[i].x, b = inputs[i].y;
+        EXPECT_TRUE(parity.near(outputs[i].z, reference::emissionWeight(double(a), double(b)))) << a << ", " << b;
+        if (b == 0) EXPECT_EQ(outputs[i].z, 1.0f) << a;
+        if (a == 0 && b > 0) EXPECT_EQ(outputs[i].z, 0.0f) << b;
+    }
+}
+
 }  // namespace
 }  // namespace parhelion

@@ -57,7 +57,8 @@ TEST(TrackingParity, FlightDecisionsAreTheSameH19H36) {
         const int hero = int(inputs[i].w);
         medium.sigmaRatio = glm::dvec3(inputs[i + 2]);
         reference::Throughput<double> throughput;
-        const bool isReal = reference::decideFlight(medium, 1.0, 1.0, double(inputs[i + 2].w), hero, throughput);
+        const bool isReal =
+            reference::decideFlight(medium, glm::dvec3(1), 1.0, double(inputs[i + 2].w), hero, throughput);
         EXPECT_TRUE(decision.equal(outputs[i].w == kCollided, isReal)) << i;
         EXPECT_TRUE(decision.near(glm::dvec3(outputs[i + 1]) / double(outputs[i + 1][hero]), throughput.r,
                                   std::max(1.0, reference::maxComponent(throughput.r))))

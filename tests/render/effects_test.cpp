@@ -17,7 +17,8 @@ TEST(Effects, PruningIsExact) {
     const TemporaryFolder folder;
     expectExactPruning("cloud_box.xml", compileFile(sceneFolder() / "cloud_box.xml", kSize));
     for (const NamedScene& named : effectScenes(folder, kSize))
-        if (named.name.starts_with("several media")) expectExactPruning(named.name, named.scene);
+        if (named.name.starts_with("several media") || named.name.starts_with("textured"))
+            expectExactPruning(named.name, named.scene);
 }
 
 // The test sees what it is for: an effect that the analysis had missed.

@@ -156,6 +156,20 @@ TEST_F(RenderCommand, CompareJudgesByTheLimitsGiven) {
     EXPECT_EQ(exitCode(0.5 * mse), 1);
 }
 
+TEST_F(RenderCommand, CompareTellsNoiseFromBias) {
+    for (const std::string seed : {"1", "2"}) render(seed + ".exr", {"--seed", seed, "--sampler", "independent"});
+    const ProgramResult same =
+        run({"compare", "1.exr", "2.exr", "--noise-alone", "--mean-within", "0.5", "--error-range", "0.1", "--json"});
+    EXPECT_TRUE(json::parse(same.output)["budget"]["passed"]);
+    render("black.exr", {"--max-depth", "0"});
+    for (const std::vector<std::string>& limit :
+         {std::vector<std::string>{"--noise-alone"}, {"--mean-within", "0.5"}}) {
+        std::vector<std::string> arguments{"compare", "1.exr", "black.exr"};
+        arguments.insert(arguments.end(), limit.begin(), limit.end());
+        EXPECT_EQ(runProgram(PARHELION_PROGRAM, arguments, folder_.path()).exitCode, 1) << limit.front();
+    }
+}
+
 TEST_F(RenderCommand, ConvertKeepsEveryVoxelThroughEveryFormat) {
     Volume volume;
     volume.density = DensityGrid({11, 9, 20});

@@ -73,6 +73,21 @@ TEST(ProceduralCloudScene, DefaultsAreThoseOfTheSweep) {
     EXPECT_EQ(field.modulates, 0u);
 }
 
+TEST(ProceduralCloudScene, ModulatedDensityHasOneChannel) {
+    const TemporaryFolder folder;
+    Volume volume;
+    volume.channels = 3;
+    volume.color = {{1, 1, 1}, {0.1f, 0.2f, 0.3f}};
+    writeVolume(folder.path() / "rgb.vol", volume);
+    const std::string content = "<volume type=\"gridvolume\"><string name=\"filename\" value=\"rgb.vol\"/></volume>";
+    try {
+        readScene(folder.write("scene.xml", cloudOf(content)));
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("one channel"), std::string::npos) << error.what();
+    }
+}
+
 TEST(ProceduralCloudScene, ModulatedTakesPlaceAndShapeOfItsDensity) {
     const TemporaryFolder folder;
     Volume volume;

@@ -39,6 +39,8 @@ std::vector<BadUsage> badValues() {
         badRender("SamplesOverflow", {"--spp", "99999999999999999999"}, "got 99999999999999999999"),
         badRender("FractionalSeed", {"--seed", "1.5"}, "--seed: expected a whole number from 0 to 4294967295; got 1.5"),
         badRender("NegativeDepth", {"--max-depth", "-2"}, "--max-depth: expected a whole number from -1"),
+        badRender("TooManyDepthLayers", {"--depth-layers", "65"},
+                  "--depth-layers: expected a whole number from 0 to 64"),
         badRender("NanExposure", {"--exposure", "nan"}, "--exposure: expected a number from -64 to 64; got nan"),
         badRender("InfiniteRoulette", {"--shadow-roulette", "inf"}, "--shadow-roulette: expected a number"),
         badRender("UnknownBackend", {"--backend", "cuda"},

@@ -40,19 +40,37 @@ std::vector<BadText> badSurfaces() {
         {"ReflectanceAboveOne",
          diffuseOf("<rgb name=\"reflectance\" value=\"@@0.5, 1.25, 0\"/>"),
          {"[0, 1]", "got 1.25"}},
-        {"Texture",
-         diffuseOf(
-             "@@<texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" value=\"a.png\"/></texture>"),
-         {"texture plugin \"bitmap\" is not supported", "<rgb>"}},
         {"UnknownPlugin",
          sceneOf("<shape type=\"@@spere\"/>"),
          {"\"spere\" is not supported", "did you mean \"sphere\"?"}},
         {"KnownToMitsubaOnly", sceneOf("<shape type=\"@@cylinder\"/>"), {"obj, rectangle, cube, sphere"}},
-        {"EnvironmentMap", sceneOf("<emitter type=\"@@envmap\"/>"), {"constant, directional, point"}},
+        {"SunAndSky", sceneOf("<emitter type=\"@@sunsky\"/>"), {"constant, directional, envmap, point, sky"}},
         {"GlossySurface", sphereOf("<bsdf type=\"@@roughconductor\"/>"), {"diffuse, null, twosided"}},
         {"TwoSurfaces", sphereOf("<bsdf type=\"diffuse\"/>@@<bsdf type=\"null\"/>"), {"only one <bsdf>"}},
         {"TwoSidedNull", sphereOf("<bsdf type=\"twosided\">@@<bsdf type=\"null\"/></bsdf>"), {"diffuse", "null"}},
         {"PhaseInShape", sphereOf("@@<phase type=\"hg\"/>"), {"<phase> is not allowed here"}},
+    };
+}
+
+std::vector<BadText> badStrategies() {
+    const auto directOf = [](const std::string& properties) {
+        return sceneOf("", "<integrator type=\"direct\">" + properties + "</integrator>" + kSensor);
+    };
+    return {
+        {"UnknownStrategy", directOf("<string name=\"strategy\" value=\"@@brdf\"/>"), {"bsdf", "emitter", "mis"}},
+        {"StrategyAndCounts",
+         directOf("<string name=\"strategy\" value=\"@@mis\"/><integer name=\"bsdf_samples\" value=\"2\"/>"),
+         {"not both"}},
+        {"ShadingAndCounts",
+         directOf("<integer name=\"shading_samples\" value=\"@@2\"/><integer name=\"bsdf_samples\" value=\"2\"/>"),
+         {"not both"}},
+        {"NoSampleAtAll",
+         directOf("<integer name=\"bsdf_samples\" value=\"0\"/><integer name=\"emitter_samples\" value=\"@@0\"/>"),
+         {"must be at least 1"}},
+        {"NegativeSamples", directOf("<integer name=\"emitter_samples\" value=\"@@-1\"/>"), {"[0, 1000000]", "got -1"}},
+        {"DirectHasNoDepth", directOf("@@<integer name=\"max_depth\" value=\"3\"/>"), {"unknown property"}},
+        {"TooManyDepthLayers", integratorOf("<integer name=\"depth_layers\" value=\"@@65\"/>"), {"[0, 64]", "got 65"}},
+        {"StrategyOfAPath", integratorOf("@@<string name=\"strategy\" value=\"mis\"/>"), {"unknown property"}},
     };
 }
 
@@ -249,6 +267,7 @@ TEST_P(ScenePropertyError, NamesTheCauseAndItsPlace) { expectRefused(GetParam())
 INSTANTIATE_TEST_SUITE_P(Values, ScenePropertyError, testing::ValuesIn(badValues()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Surfaces, ScenePropertyError, testing::ValuesIn(badSurfaces()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Lights, ScenePropertyError, testing::ValuesIn(badLights()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(Strategies, ScenePropertyError, testing::ValuesIn(badStrategies()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Skies, ScenePropertyError, testing::ValuesIn(badSkies()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Media, ScenePropertyError, testing::ValuesIn(badMedia()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Phases, ScenePropertyError, testing::ValuesIn(badPhases()), nameOfBadText);

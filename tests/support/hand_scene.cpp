@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compile/bvh_builder.h"
+#include "compile/compile_environment.h"
 #include "compile/compile_sky.h"
 #include "reference/reference_renderer.h"
 
@@ -155,6 +156,14 @@ void HandScene::setSky(const SkyDescription& sky, bool isSampled) {
     shared::Light light{};
     light.type = shared::kLightSky;
     light.emission = compileSky(sky, {}, scene);
+    scene.constants.environment = scene.constants.lightCount;
+    addLight(light, isSampled);
+}
+
+void HandScene::setEnvironmentMap(const EmitterDescription& map, bool isSampled) {
+    shared::Light light{};
+    light.type = shared::kLightEnvironmentMap;
+    light.emission = compileEnvironment(map, map.misCompensation, scene);
     scene.constants.environment = scene.constants.lightCount;
     addLight(light, isSampled);
 }

@@ -44,6 +44,8 @@ public:
     void setEnvironment(glm::vec3 radiance);
     /// Surrounds the scene with a sky, of which next-event estimation is a part unless told otherwise.
     void setSky(const SkyDescription& sky, bool isSampled = true);
+    /// Surrounds the scene with an environment map that is neither black nor uniform.
+    void setEnvironmentMap(const EmitterDescription& map, bool isSampled = true);
     /// Lights share the selection evenly unless `isSampled` is false.
     void addLight(shared::Light light, bool isSampled = true);
     /// Makes a quad or sphere emit.

@@ -25,7 +25,9 @@ std::size_t countDifferent(std::span<const Pixel> a, std::span<const Pixel> b) {
 }  // namespace
 
 std::filesystem::path sceneFolder() {
-    return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "scenes";
+    // Absolute, for scenes that are written elsewhere: a compiler cache may have made __FILE__ relative.
+    return std::filesystem::absolute(std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() /
+                                     "scenes");
 }
 
 std::vector<std::filesystem::path> sceneFiles() {

@@ -151,6 +151,49 @@ TEST(CompareImages, LocalBiasShowsInItsTile) {
     EXPECT_EQ(comparison.tiles->pixel, glm::uvec2(40, 16));
 }
 
+// Weighted by their squared means, 9216 values count like 5000: the ratio is known to 2 %, and 4.9 of that reject.
+TEST(CompareImages, SquaredErrorIsTheSumOfBothVariances) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const ImageComparison comparison =
+            compareImages(noisyImage({64, 48}, 0.2, seed), noisyImage({64, 48}, 0.1, 99 + seed));
+        ASSERT_TRUE(comparison.budget);
+        // Means of squares 0.25, 1 and 4.
+        EXPECT_NEAR(comparison.budget->expected, 0.05 * 1.75, 1e-6);
+        EXPECT_NEAR(comparison.budget->ratio, comparison.meanSquaredError / comparison.budget->expected, 1e-6);
+        EXPECT_TRUE(comparison.budget->passed()) << describe(*comparison.budget);
+        EXPECT_LT(comparison.budget->largestBias, 0.4 * std::sqrt(comparison.budget->expected));
+    }
+}
+
+TEST(CompareImages, ErrorThatNoRegionShowsAddsToTheNoise) {
+    // Half a deviation up in every other pixel, down in the others: 25 % more squared error.
+    Image a = noisyImage({64, 48}, 0.2, 1);
+    for (const char* channel : kChannels)
+        for (std::size_t i = 0; i < 64 * 48; ++i) a.channels[channel][i] *= i % 2 ? 1.1f : 0.9f;
+    const Image truth = noisyImage({64, 48}, 1e-9, 3);
+    const ImageComparison comparison = compareImages(a, truth);
+    EXPECT_TRUE(comparison.agree());
+    EXPECT_FALSE(comparison.budget->passed()) << describe(*comparison.budget);
+    EXPECT_GT(comparison.budget->largestBias, 0.1 * std::sqrt(1.75));
+}
+
+TEST(CompareImages, OverstatedVariancesAreNotNoiseEither) {
+    Image a = noisyImage({64, 48}, 0.2, 1);
+    for (const char* channel : kChannels)
+        for (float& variance : a.channels[std::string("variance.") + channel]) variance *= 1.2f;
+    EXPECT_FALSE(compareImages(a, noisyImage({64, 48}, 1e-9, 2)).budget->passed());
+}
+
+// Four seeds leave three degrees of freedom: deviations that normal noise would never have are common.
+TEST(CompareImages, VariancesFromFewSeedsCountAsEstimates) {
+    Image a = constantImage({64, 48}, 1.0f), b = a;
+    for (const char* channel : kChannels) b.channels[std::string("variance.") + channel].assign(64 * 48, 0.01f);
+    a.channels["G"][7] = 2.0f;  // 10 deviations; a t of 10 at 3 degrees of freedom is as improbable as 3.07
+    EXPECT_FALSE(compareImages(a, b).pixels->passed());
+    b.attributes["seeds"] = std::int64_t{4};
+    EXPECT_NEAR(compareImages(a, b).pixels->z, 3.07, 0.01);
+}
+
 TEST(CompareImages, RoundingAloneAgreesAndMoreDoesNot) {
     Image a = noisyImage({16, 16}, 0.0, 1);
     const Image b = a;

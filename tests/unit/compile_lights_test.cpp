@@ -183,7 +183,7 @@ TEST(CompiledLights, MeshTrianglesAreListedByArea) {
 TEST(CompiledLights, SecondEnvironmentAndTooManyLightsAreRefused) {
     SceneDescription description = scene();
     description.emitters = {emitter(kConstant, {1, 1, 1}), emitter(kConstant, {1, 1, 1})};
-    EXPECT_TRUE(contains(inputErrorOf(description), "lights.xml:2:2: a scene may have one constant emitter or sky"));
+    EXPECT_TRUE(contains(inputErrorOf(description), "lights.xml:2:2: a scene may have one emitter that surrounds it"));
     description.emitters.assign(shared::kMaxLights, emitter(kPoint, {1, 1, 1}));
     EXPECT_EQ(inputErrorOf(description), "");
     description.emitters.push_back(emitter(kPoint, {1, 1, 1}));

@@ -216,9 +216,50 @@ TEST(CompiledMedia, SingularPlacementsAndOverflowAreRefused) {
     MediumDescription bright = gridMedium("m", DensityGrid::fromDense({1, 1, 1}, std::vector<float>{1e20f}));
     bright.sigmaT = glm::dvec3(1e20);
     EXPECT_TRUE(contains(inputErrorOf(sceneWith({bright})), "single precision"));
-    MediumDescription colored = gridMedium("m", DensityGrid());
-    colored.density->volume.channels = 3;
-    EXPECT_TRUE(contains(inputErrorOf(sceneWith({colored})), "one channel"));
+}
+
+MediumDescription colorMedium(glm::uvec3 resolution, const std::vector<float>& values) {
+    MediumDescription medium = gridMedium("m", DensityGrid());
+    medium.density->volume.channels = 3;
+    medium.density->volume.color = {resolution, values};
+    return medium;
+}
+
+TEST(CompiledMedia, EqualChannelsFoldToGrey) {
+    const CompiledScene grey = compileScene(sceneWith({colorMedium({2, 1, 1}, {3, 3, 3, 5, 5, 5})}));
+    EXPECT_EQ(grey.density, (std::vector<float>{3, 5}));
+    EXPECT_FALSE(grey.effects.has(Effect::hasColorDensity) || grey.effects.has(Effect::hasChromaticExtinction));
+    const std::vector<float> values{3, 3, 3, 5, 5, 4};
+    const CompiledScene coloured = compileScene(sceneWith({colorMedium({2, 1, 1}, values)}));
+    EXPECT_EQ(coloured.density, values);
+    EXPECT_TRUE(coloured.effects.has(Effect::hasColorDensity) && coloured.effects.has(Effect::hasChromaticExtinction));
+    EXPECT_EQ(coloured.constants.media[0].resolution, glm::uvec3(2, 1, 1));
+    const CompiledScene empty = compileScene(sceneWith({colorMedium({2, 1, 1}, {0, 0, 0, 0, 0, 0})}));
+    EXPECT_EQ(empty.constants.mediumCount, 0u);
+}
+
+// Every voxel that the interpolant reads in a cell, one beyond its faces included, in every channel, lies below its
+// bound.
+TEST(CompiledMedia, MajorantsBoundEveryChannelHalosIncluded) {
+    const glm::ivec3 n(19, 10, 9);
+    std::vector<float> values;
+    for (int i = 0; i < 3 * n.x * n.y * n.z; ++i) values.push_back(float(i * 7919 % 1009) * (i % 3 == 1 ? 4.0f : 0.1f));
+    const CompiledScene scene = compileScene(sceneWith({colorMedium(n, values)}));
+    const glm::ivec3 cells(scene.constants.media[0].cells);
+    ASSERT_EQ(cells, glm::ivec3(3, 2, 2));
+    for (int cell = 0; cell < cells.x * cells.y * cells.z; ++cell) {
+        const glm::ivec3 at(cell % cells.x, cell / cells.x % cells.y, cell / cells.x / cells.y);
+        float largest = 0;
+        for (int z = 8 * at.z - 1; z <= 8 * at.z + 8; ++z)
+            for (int y = 8 * at.y - 1; y <= 8 * at.y + 8; ++y)
+                for (int x = 8 * at.x - 1; x <= 8 * at.x + 8; ++x) {
+                    const glm::ivec3 v = glm::clamp(glm::ivec3(x, y, z), glm::ivec3(0), n - 1);
+                    for (int c = 0; c < 3; ++c)
+                        largest = std::max(largest, values[3 * ((v.z * n.y + v.y) * n.x + v.x) + c]);
+                }
+        EXPECT_GT(scene.majorants.at(cell), largest) << "rounded up";
+        EXPECT_LT(scene.majorants.at(cell), largest * 1.00001f) << "and tight";
+    }
 }
 
 }  // namespace

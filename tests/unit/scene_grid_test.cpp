@@ -1,4 +1,5 @@
 // Media whose density or albedo comes from a volume file.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "support/scene_reading.h"
@@ -76,17 +77,18 @@ TEST_F(SceneGrid, OfExtinctionNeedsAHeterogeneousMedium) {
     EXPECT_THROW(read(volume, "homogeneous"), InputError);
 }
 
-TEST_F(SceneGrid, OfExtinctionMustHaveOneChannel) {
+TEST_F(SceneGrid, OfExtinctionMayHaveThreeChannels) {
     Volume volume;
     volume.channels = 3;
-    volume.color = {{1, 1, 1}, {0.1f, 0.2f, 0.3f}};
-    writeVolume(folder_.path() / "rgb.vol", volume);
-    try {
-        read("<volume name=\"sigma_t\" type=\"gridvolume\">\n<string name=\"filename\" value=\"rgb.vol\"/></volume>");
-        FAIL() << "accepted";
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.where().line, 4);
-        EXPECT_NE(std::string(error.what()).find("one channel"), std::string::npos) << error.what();
+    volume.color = {{1, 1, 2}, {0.1f, 0.2f, 0.3f, 4, 5, 6}};
+    for (const char* name : {"rgb.vol", "rgb.grid"}) {
+        writeVolume(folder_.path() / name, volume);
+        const SceneDescription scene = read(fmt::format(
+            R"(<volume name="sigma_t" type="gridvolume"><string name="filename" value="{}"/></volume>)", name));
+        ASSERT_TRUE(scene.media.at(0).density);
+        EXPECT_EQ(scene.media[0].density->volume.channels, 3u);
+        EXPECT_EQ(scene.media[0].density->volume.color.values, volume.color.values);
+        EXPECT_EQ(scene.media[0].sigmaT, glm::dvec3(1));
     }
 }
 

@@ -57,6 +57,11 @@ TEST(SharedLayout, FilmPixelIsTheSameInBothLanguages) {
     expectLayout("FilmPixel", sizeof(Type), {MEMBER(sumHigh), MEMBER(sumLow), MEMBER(squareHigh), MEMBER(squareLow)});
 }
 
+TEST(SharedLayout, LayerPixelIsTheSameInBothLanguages) {
+    using Type = shared::LayerPixel;
+    expectLayout("LayerPixel", sizeof(Type), {MEMBER(sumHigh), MEMBER(sumLow)});
+}
+
 TEST(SharedLayout, FeaturePixelIsTheSameInBothLanguages) {
     using Type = shared::FeaturePixel;
     expectLayout("FeaturePixel", sizeof(Type), {MEMBER(albedo), MEMBER(depth), MEMBER(normal), MEMBER(hits)});
@@ -174,6 +179,7 @@ TEST(SharedLayout, SceneConstantsAreTheSameInBothLanguages) {
                   MEMBER(emitterSamples),
                   MEMBER(scatterSamples),
                   MEMBER(textureCount),
+                  MEMBER(depthLayers),
                   MEMBER(environmentMap),
                   MEMBER(sky),
                   MEMBER(quads),
@@ -188,7 +194,7 @@ TEST(SharedLayout, SceneConstantsAreTheSameInBothLanguages) {
 
 /// A struct added to shaders/shared must be added above.
 TEST(SharedLayout, EveryStructIsCompared) {
-    constexpr int kCompared = 15;
+    constexpr int kCompared = 17;
     int declared = 0;
     for (const auto& entry : std::filesystem::directory_iterator(gpu::shaderFolder() / "shared")) {
         std::ifstream lines(entry.path());

@@ -4,7 +4,8 @@
 Each image is the mean of K renders with independent seeds. The channels R, G, B hold the mean and
 variance.R, variance.G, variance.B the variance of that mean, estimated over the K renders: a
 comparison has K - 1 degrees of freedom. The header keeps `seeds` (K) and `samplesPerPixel` (over all
-seeds), and what rendered it. A later run adds seeds to what is there.
+seeds), and what rendered it. Some scenes have their number of seeds fixed; for the others a later run adds seeds to
+what is there.
 
 Needs `pip install mitsuba` and a libLLVM (Debian: libllvm19) named by DRJIT_LIBLLVM_PATH.
 
@@ -17,21 +18,47 @@ import os
 import pathlib
 import sys
 import time
+import typing
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 REFERENCES = ROOT / "tests" / "references"
 BENCHMARK = ROOT.parent / "shared" / "benchmark"
+MITSUBA_TESTS = ROOT.parent / "shared" / "data" / "mitsuba" / "tests" / "scenes" / "participating_media"
 
-# Samples per pixel of one seed: its wavefront, size^2 * spp paths, has to fit in memory.
+SCENES_FOLDER = ROOT / "scenes"
+MAPS = ROOT.parent / "shared" / "data" / "environments"
+
+
+class Scene(typing.NamedTuple):
+    file: pathlib.Path
+    samples: int  # per pixel of one seed: its wavefront, size^2 * samples paths, has to fit in memory
+    seeds: int = 0  # fixed beforehand; 0: added until the image mean is known to TARGET_ERROR
+    parameters: dict = {}
+    sampler: str = "independent"
+
+
 SCENES = {
-    "wdas_sun_sky": (BENCHMARK / "wdas_sun_sky.xml", 64),
-    "cornell_cloud": (BENCHMARK / "cornell_cloud.xml", 64),
-    "fog_small_light": (BENCHMARK / "fog_small_light.xml", 256),
-    "furnace": (BENCHMARK / "furnace.xml", 64),
-    "hetero_sigmat": (REFERENCES / "hetero_sigmat.xml", 64),
-    "homo_null": (REFERENCES / "homo_null.xml", 64),
+    "wdas_sun_sky": Scene(BENCHMARK / "wdas_sun_sky.xml", 64),
+    "cornell_cloud": Scene(BENCHMARK / "cornell_cloud.xml", 64),
+    "fog_small_light": Scene(BENCHMARK / "fog_small_light.xml", 256),
+    "hdr_sky_only": Scene(BENCHMARK / "hdr_sky_only.xml", 1024, 32),
+    "bunny_hdr_sky": Scene(BENCHMARK / "bunny_hdr_sky.xml", 512, 32),
+    "furnace": Scene(BENCHMARK / "furnace.xml", 64),
+    "hetero_sigmat": Scene(REFERENCES / "hetero_sigmat.xml", 64),
+    "homo_null": Scene(REFERENCES / "homo_null.xml", 64),
+    "cornell_hg_cloud": Scene(SCENES_FOLDER / "cornell_cloud.xml", 64, 40),
+    # Independent samples would take a day for the edges of the squares.
+    "checkerboard": Scene(SCENES_FOLDER / "checkerboard.xml", 1024, 32, sampler="multijitter"),
+    "empty_environment": Scene(SCENES_FOLDER / "empty_environment.xml", 1024, 32),
+    "empty_noon_grass": Scene(SCENES_FOLDER / "empty_environment.xml", 1024, 32,
+                              {"map": str(MAPS / "noon_grass_1k.hdr")}),
+    "mesh_under_sky": Scene(REFERENCES / "mesh_under_sky.xml", 512, 32),
+    "environment_floor": Scene(REFERENCES / "environment_floor.xml", 256, 32),
+    "homo_null_envmap": Scene(MITSUBA_TESTS / "test_homo_null_envmap_volpath.xml", 64, 32),
+    "hetero_sigmat_envmap": Scene(MITSUBA_TESTS / "test_hetero_sigmat_volpath.xml", 64, 32),
+    "color_density": Scene(REFERENCES / "color_density.xml", 64),
 }
 TARGET_ERROR = 5e-4  # standard error of the image mean, relative
 MINIMUM_SEEDS = 32
@@ -74,14 +101,30 @@ def read(mi, file, size, spp):
     return Moments(count, data[:, :, :3], data[:, :, 3:] * count * (count - 1))
 
 
-def render(mi, file, size, spp, minutes, moments):
-    """Adds seeds until the image mean is known to TARGET_ERROR or the time is over."""
-    scene = mi.load_file(str(file), size=size, spp=spp)
+def load(mi, scene, size):
+    """The scene with its sampler replaced; files are found beside it."""
+    if MITSUBA_TESTS in scene.file.parents:
+        return mi.load_file(str(scene.file), res=size, spp=scene.samples)
+    mi.file_resolver().prepend(str(scene.file.parent))
+    text = scene.file.read_text().replace('<sampler type="independent">', f'<sampler type="{scene.sampler}">')
+    return mi.load_string(text, size=size, spp=scene.samples, **scene.parameters)
+
+
+def render(mi, description, size, minutes, moments):
+    """Adds seeds up to the `wanted` number, or, without one, until the image mean is known to TARGET_ERROR or the time
+    is over."""
+    scene, spp, wanted = load(mi, description, size), description.samples, description.seeds
     end = time.monotonic() + 60 * minutes
-    while moments.count < MINIMUM_SEEDS or (
-            time.monotonic() < end and (moments.image_error() > TARGET_ERROR * moments.image_mean()).any()):
+
+    def done():
+        if wanted:
+            return moments.count >= wanted
+        return moments.count >= MINIMUM_SEEDS and (
+            time.monotonic() >= end or (moments.image_error() <= TARGET_ERROR * moments.image_mean()).all())
+
+    while not done():
         image = np.array(mi.render(scene, spp=spp, seed=1 + moments.count), dtype=np.float64)
-        moments.add(image[:, :, :3])
+        moments.add(image[:, :, :3])  # of the `moment` integrator, too: its first channels
 
 
 def origin(mi):
@@ -105,7 +148,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="of " + ", ".join(SCENES))
     parser.add_argument("--size", type=int, default=64, help="width and height in pixels")
-    parser.add_argument("--minutes", type=float, default=3.0, help="time after which a scene takes no more seeds")
+    parser.add_argument("--minutes", type=float, default=3.0,
+                        help="time after which a scene takes no more seeds, unless their number is fixed")
     parser.add_argument("--fresh", action="store_true", help="start anew instead of adding seeds to what is there")
     parser.add_argument("--variant", default="llvm_ad_rgb")
     arguments = parser.parse_args()
@@ -118,13 +162,14 @@ def main():
 
     mi.set_variant(arguments.variant)
     for name in arguments.scenes or SCENES:
-        file, spp = SCENES[name]
-        if not file.exists():
-            sys.exit(f"{file}: missing")
+        scene = SCENES[name]
+        spp = scene.samples
+        if not scene.file.exists():
+            sys.exit(f"{scene.file}: missing")
         start = time.monotonic()
         output = REFERENCES / f"{name}.exr"
         moments = Moments() if arguments.fresh else read(mi, output, arguments.size, spp)
-        render(mi, file, arguments.size, spp, arguments.minutes, moments)
+        render(mi, scene, arguments.size, arguments.minutes, moments)
         write(mi, moments, spp, output)
         means = zip(moments.image_mean(), moments.image_error())
         print(f"{name}: {moments.count} seeds of {spp} spp, {time.monotonic() - start:.0f} s; image mean",

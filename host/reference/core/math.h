@@ -47,6 +47,12 @@ Real roundedSqrt(Real x) {
     return std::sqrt(x);
 }
 
+/// Angle of (x, y) from the x axis, in (-pi, pi]; 0 when both are 0.
+template <typename Real>
+Real angleOf(Real y, Real x) {
+    return x == 0 && y == 0 ? Real(0) : std::atan2(y == 0 ? Real(0) : y, x);
+}
+
 /// (sin, cos) of 2 pi u, u in [0, 1).
 template <typename Real>
 Vec2<Real> sinCosTurn(Real u) {

@@ -39,6 +39,7 @@ struct Sphere {
     Real radius;
     std::uint32_t shape;
     bool isNull;
+    Vec3<Real> axisX{1, 0, 0}, axisY{0, 1, 0}, axisZ{0, 0, 1};  ///< the sphere's own, unit
 };
 
 template <typename Real>
@@ -66,6 +67,7 @@ struct Medium {
     const float* majorants = nullptr;
     const glm::vec4* albedoVoxels = nullptr;  ///< null without an albedo grid
     bool homogeneous, grey;
+    bool colored;  ///< three densities a voxel, interleaved
 };
 
 template <typename Real>
@@ -74,6 +76,7 @@ struct Light {
     std::uint32_t type, primitive, triangleCount, cdfOffset;
     Real selection, cumulative, area;
     bool isTwoSided;
+    std::uint32_t texture = kNone;
 };
 
 /// CompiledScene in Real: the records converted once, the large arrays referred to.
@@ -138,7 +141,8 @@ Medium<Real> viewMedium(const CompiledScene& scene, const shared::Medium& m) {
     v.cellLevel = m.cellLevel;
     v.albedoResolution = m.albedoResolution;
     v.homogeneous = (m.flags & shared::kMediumHomogeneous) != 0;
-    v.grey = m.sigmaRatio == glm::vec3(1.0f);
+    v.colored = (m.flags & shared::kMediumColorDensity) != 0;
+    v.grey = m.sigmaRatio == glm::vec3(1.0f) && !v.colored;
     if (!v.homogeneous) {
         const bool bricked = (m.flags & shared::kMediumBricked) != 0;
         v.density = scene.density.data() + (bricked ? 0 : m.voxelOffset);
@@ -161,16 +165,19 @@ SceneView<Real>::SceneView(const CompiledScene& scene) : source(scene), constant
         quads.push_back(
             {q.corner, q.edgeU, q.edgeV, q.normal, q.uFromWorld, q.vFromWorld, Real(q.area), q.shape, isNull(q.shape)});
     }
-    for (std::uint32_t i = 0; i < c.sphereCount; ++i)
+    for (std::uint32_t i = 0; i < c.sphereCount; ++i) {
+        const shared::Sphere& s = c.spheres[i];
+        const Vec3<Real> x(s.axisX), z(s.axisZ);
         spheres.push_back(
-            {c.spheres[i].center, Real(c.spheres[i].radius), c.spheres[i].shape, isNull(c.spheres[i].shape)});
+            {s.center, Real(s.radius), s.shape, isNull(s.shape), x, glm::cross(z, x) * Real(s.handedness), z});
+    }
     for (std::uint32_t i = 0; i < c.boxCount; ++i)
         boxes.push_back({Affine<Real>(c.boxes[i].localFromWorld), c.boxes[i].shape, isNull(c.boxes[i].shape)});
     for (std::uint32_t i = 0; i < c.mediumCount; ++i) media.push_back(viewMedium<Real>(scene, c.media[i]));
     for (std::uint32_t i = 0; i < c.lightCount; ++i) {
         const shared::Light& l = c.lights[i];
         lights.push_back({l.emission, l.vector, l.type, l.primitive, l.triangleCount, l.cdfOffset, Real(l.selection),
-                          Real(l.cumulative), Real(l.area), (l.flags & shared::kLightTwoSided) != 0});
+                          Real(l.cumulative), Real(l.area), (l.flags & shared::kLightTwoSided) != 0, l.texture});
     }
 }
 

@@ -89,7 +89,10 @@ Vec3<Real> estimateDirect(const PathContext<Real, Trace>& path, const Vertex<Rea
     const auto light = sampleLight(path.scene, vertex.position, u, place);
     if (!light) return Vec3<Real>(0);
     const Real scattering = evalScatterer(vertex, light->direction);
-    const Real mis = light->isDelta ? Real(1) : balanceHeuristic(light->pdf, scattering);
+    const shared::SceneConstants& constants = path.scene.constants;
+    const Real mis = light->isDelta ? Real(1)
+                                    : balanceHeuristic(light->pdf * Real(constants.emitterSamples),
+                                                       scattering * Real(constants.scatterSamples));
     const Vec3<Real> contribution = scattering * mis * light->radianceOverPdf;
     if (maxComponent(contribution) == 0) return Vec3<Real>(0);
     Ray<Real> ray = spawnRay(vertex, light->direction);

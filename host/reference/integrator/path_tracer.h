@@ -48,16 +48,17 @@ PathState<Real> startPath(const SceneView<Real>& scene, glm::uvec2 pixel, const 
     return state;
 }
 
-/// Radiance along one camera path.
+/// Radiance along one camera path, which is added to the pixel's layers, if there are any.
 /// Reference only: a loop over vertices; the shader's kernel runs one loop over all that can happen.
 template <typename Real, typename Trace>
 Vec3<Real> tracePath(const SceneView<Real>& scene, const Quality& quality, std::uint32_t seed, glm::uvec2 pixel,
-                     std::uint64_t sample, Counters& counters, Trace& trace) {
+                     std::uint64_t sample, Counters& counters, Trace& trace, shared::LayerPixel* layers = nullptr) {
     const Stream stream = keyPath(scene, seed, pixel, sample);
     const glm::uvec4 words = drawStratified(stream, quality.sobol, 0, shared::kDrawCamera);
     const int hero = std::min(int(3 * toUniform<Real>(words.w)), 2);
     const PathContext<Real, Trace> path{scene, quality, stream, hero, counters, trace};
     PathState<Real> state = startPath(scene, pixel, words);
+    state.layers = layers;
     bool goesOn = scene.constants.maxDepth > 0;
     while (goesOn) goesOn = handleEvent(path, fly(path, state), state);
     ++counters[shared::kCounterPathsFinished];

@@ -1,19 +1,8 @@
 #pragma once
 
-#include "reference/integrator/direct_lighting.h"
+#include "reference/integrator/emission.h"
 
 namespace parhelion::reference {
-
-/// A path between two of its vertices.
-template <typename Real>
-struct PathState {
-    Ray<Real> ray;
-    Residual<Real> residual;
-    Throughput<Real> throughput{};
-    Vec3<Real> radiance{0};
-    Real lastPdf = kInfinity<Real>;  ///< of the ray's direction; infinite from the camera: no light sample competes
-    std::uint32_t scatterings = 0;
-};
 
 /// Where a path's flight ends.
 template <typename Real>
@@ -23,27 +12,6 @@ struct FlightEnd {
     const Medium<Real>* medium = nullptr;  ///< Medium
     Real t = 0;                            ///< Medium
 };
-
-/// Adds emission met at the end of a flight, weighted against light sampling at its start.
-template <typename Real>
-void addEmission(const SceneView<Real>& scene, const Light<Real>& light, const Vec3<Real>& emission, Real distance,
-                 const Vec3<Real>& normal, PathState<Real>& state) {
-    const Real pdf = lightPdf(scene, light, state.ray.origin, state.ray.direction, distance, normal);
-    const Real mis = balanceHeuristic(state.lastPdf, pdf);
-    state.radiance += state.throughput.beta * emission * (mis / state.throughput.meanR());
-}
-
-/// Adds what comes from beyond the scene.
-template <typename Real>
-void addEnvironment(const SceneView<Real>& scene, PathState<Real>& state) {
-    if (scene.constants.environment == kNone) return;
-    const Light<Real>& light = scene.lights[scene.constants.environment];
-    const Vec3<Real>& direction = state.ray.direction;
-    const Vec3<Real> radiance = light.type == shared::kLightSky
-                                    ? skyRadiance(scene, SkyPoint<Real>{direction, findStar(scene, direction)})
-                                    : light.emission;
-    addEmission(scene, light, radiance, kInfinity<Real>, -direction, state);
-}
 
 /// Absorption, roulette, direct light and the next direction at a vertex.
 ///
@@ -67,11 +35,12 @@ bool scatter(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex, c
         if (!(u < survival)) return false;
         throughput.beta /= survival;
     }
-    state.radiance += throughput.beta * estimateDirect(path, vertex) / throughput.meanR();
+    const Vec3<Real> gain = throughput.beta * estimateDirect(path, vertex) / throughput.meanR();
+    addRadiance(path.scene, vertex.index, gain, state);
     const Vec2<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y)};
     const DirectionSample<Real> next = sampleScatterer(vertex, u);
     state.ray = spawnRay(vertex, next.direction);
-    state.lastPdf = next.pdf;
+    state.lastPdf = next.pdf * Real(path.scene.constants.scatterSamples);
     state.residual = {exponential<Real>(words.z, spareBits(words.x, words.y, words.w))};
     state.scatterings = vertex.index;
     return true;
@@ -88,11 +57,12 @@ bool surfaceVertex(const PathContext<Real, Trace>& path, const Hit<Real>& hit, V
     vertex.surface = surfaceAt(scene, state.ray, hit);
     vertex.position = vertex.surface.position;
     vertex.primitive = hit.primitive;
-    const Vec3<Real> reflectance(shape.reflectance);
+    const Vec3<Real> reflectance = reflectanceAt(scene.source, shape, vertex.surface.uv);
     vertex.strength = maxComponent(reflectance);
     const Vec3<Real>& normal = vertex.surface.geometricNormal;
     if (shape.light != kNone && lightCosine(scene.lights[shape.light], normal, vertex.wo) > 0)
-        addEmission(scene, scene.lights[shape.light], scene.lights[shape.light].emission, hit.t, normal, state);
+        addEmission(scene, scene.lights[shape.light], emissionAt(scene, scene.lights[shape.light], vertex.surface.uv),
+                    hit.t, normal, state);
     if (!(glm::dot(normal, vertex.wo) > 0)) {
         if ((shape.flags & shared::kShapeTwoSided) == 0) return false;
         vertex.surface.geometricNormal = -vertex.surface.geometricNormal;

@@ -14,4 +14,13 @@ Real balanceHeuristic(Real pdfA, Real pdfB) {
     return 1 / (1 + pdfB / pdfA);
 }
 
+/// Weight of light met by scattering that light sampling finds with density lightPdf; 1 where it never does.
+///
+/// @param scatterPdf, lightPdf  each times the samples its strategy counts for.
+template <typename Real>
+Real emissionWeight(Real scatterPdf, Real lightPdf) {
+    if (lightPdf == 0) return 1;
+    return balanceHeuristic(scatterPdf, lightPdf);
+}
+
 }  // namespace parhelion::reference

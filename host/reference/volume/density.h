@@ -65,6 +65,40 @@ Real densityAt(const Medium<Real>& medium, const Vec3<Real>& gridPosition, const
     return stochastic ? stochasticDensity(medium, gridPosition, offsets) : trilinearDensity(medium, gridPosition);
 }
 
+/// The densities of one voxel of a medium with a value a channel; indices beyond the grid take the nearest one in it.
+template <typename Real>
+Vec3<Real> colorVoxel(const Medium<Real>& medium, const glm::ivec3& index) {
+    const glm::ivec3& n = medium.resolution;
+    const glm::ivec3 i = glm::clamp(index, glm::ivec3(0), n - 1);
+    const float* values = medium.density + 3 * ((std::size_t(i.z) * n.y + i.y) * n.x + i.x);
+    return {Real(values[0]), Real(values[1]), Real(values[2])};
+}
+
+/// Trilinear interpolation of each channel: the sum over the eight corners.
+template <typename Real>
+Vec3<Real> trilinearColor(const Medium<Real>& medium, const Vec3<Real>& gridPosition) {
+    const Vec3<Real> s = gridPosition - Real(0.5);
+    const glm::ivec3 low = floorToInt(s);
+    const Vec3<Real> f = s - Vec3<Real>(low);
+    Vec3<Real> sum(0);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::ivec3 c(corner & 1, corner >> 1 & 1, corner >> 2);
+        const Vec3<Real> w = glm::mix(Real(1) - f, f, Vec3<Real>(c));
+        sum += w.x * w.y * w.z * colorVoxel(medium, low + c);
+    }
+    return sum;
+}
+
+/// Density of each channel at a position in voxel units, of a medium with a value a channel.
+///
+/// @param offsets  three uniforms that choose the corner, the same for all channels.
+template <typename Real>
+Vec3<Real> colorDensityAt(const Medium<Real>& medium, const Vec3<Real>& gridPosition, const Vec3<Real>& offsets,
+                          bool stochastic) {
+    if (stochastic) return colorVoxel(medium, stochasticCorner(gridPosition, offsets));
+    return trilinearColor(medium, gridPosition);
+}
+
 /// Single-scattering albedo at a world position; a grid's corner is chosen by three uniforms.
 template <typename Real>
 Vec3<Real> albedoAt(const Medium<Real>& medium, const Vec3<Real>& position, const Vec3<Real>& offsets) {

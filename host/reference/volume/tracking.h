@@ -82,14 +82,17 @@ bool nextCollision(const Medium<Real>& medium, CellWalk<Real>& walk, Real tEnd, 
     }
 }
 
-/// Density at the walk's position, checked against the bound of its cell.
+/// Density of each channel at the walk's position, checked against the bound of its cell.
 /// Reference only: within stepSegment in the shader.
 template <typename Real, typename Trace>
-Real densityHere(const PathContext<Real, Trace>& path, const Medium<Real>& medium, const CellWalk<Real>& walk,
-                 const glm::uvec4& words) {
+Vec3<Real> densityHere(const PathContext<Real, Trace>& path, const Medium<Real>& medium, const CellWalk<Real>& walk,
+                       const glm::uvec4& words) {
     const Vec3<Real> position = walk.origin + walk.t * walk.direction;
-    const Real density = densityAt(medium, position, cornerOffsets<Real>(words), path.quality.stochasticFilter);
-    if (density > walk.bound) ++path.counters[shared::kCounterMajorantViolations];
+    const Vec3<Real> offsets = cornerOffsets<Real>(words);
+    const bool stochastic = path.quality.stochasticFilter;
+    const Vec3<Real> density = medium.colored ? colorDensityAt(medium, position, offsets, stochastic)
+                                              : Vec3<Real>(densityAt(medium, position, offsets, stochastic));
+    if (maxComponent(density) > walk.bound) ++path.counters[shared::kCounterMajorantViolations];
     return density;
 }
 
@@ -97,9 +100,9 @@ Real densityHere(const PathContext<Real, Trace>& path, const Medium<Real>& mediu
 ///
 /// @param u  uniform.
 template <typename Real>
-bool decideFlight(const Medium<Real>& medium, Real density, Real bound, Real u, int hero,
+bool decideFlight(const Medium<Real>& medium, const Vec3<Real>& density, Real bound, Real u, int hero,
                   Throughput<Real>& throughput) {
-    if (medium.grey) return u * bound < density;
+    if (medium.grey) return u * bound < density.x;
     const Vec3<Real> q = glm::min(Vec3<Real>(1), medium.sigmaRatio * (density / bound));
     const bool isReal = u < q[hero];
     throughput.scale(isReal ? q / q[hero] : (Real(1) - q) / (1 - q[hero]));
@@ -138,7 +141,7 @@ std::optional<Real> trackHomogeneousFlight(const PathContext<Real, Trace>& path,
         if (medium.grey) return t;
         const glm::uvec4 words = draw(path.stream.key, vertex, shared::kDrawFlight | residual.index);
         residual.renew(words);
-        if (decideFlight(medium, Real(1), Real(1), toUniform<Real>(words.x), path.hero, throughput)) return t;
+        if (decideFlight(medium, Vec3<Real>(1), Real(1), toUniform<Real>(words.x), path.hero, throughput)) return t;
     }
 }
 
@@ -174,10 +177,10 @@ std::optional<Real> trackFlight(const PathContext<Real, Trace>& path, const Medi
     if (!clipToGrid(medium, ray.tMin, tEnd, walk)) return std::nullopt;
     while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
         const glm::uvec4 words = draw(path.stream.key, vertex, shared::kDrawFlight | residual.index);
-        const Real density = densityHere(path, medium, walk, words);
+        const Vec3<Real> density = densityHere(path, medium, walk, words);
         const Real u = toUniform<Real>(words.x);
         if constexpr (Trace::kIsOn) {
-            const double q = double(density) / double(walk.bound) * double(medium.sigmaRatio[path.hero]);
+            const double q = double(density[path.hero]) / double(walk.bound) * double(medium.sigmaRatio[path.hero]);
             path.trace.add(Decision{Decision::Kind::Flight, vertex, residual.index, walk.index, double(u), q});
         }
         residual.renew(words);

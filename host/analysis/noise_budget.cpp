@@ -1,0 +1,35 @@
+#include "analysis/noise_budget.h"
+
+#include <algorithm>
+
+#include "analysis/tiles.h"
+
+namespace parhelion {
+
+std::optional<NoiseBudget> noiseBudget(std::span<const ChannelPair> pairs, glm::uvec2 size, double significance,
+                                       double confidence) {
+    RunningMoments excess, variances;
+    for (const PixelRect& pixel : tilesOf(size, 1)) {
+        const std::size_t index = std::size_t{pixel.offset.y} * size.x + pixel.offset.x;
+        if (!std::ranges::all_of(pairs, [&](const ChannelPair& pair) { return pair.isFinite(index); })) continue;
+        double squares = 0, variance = 0;
+        for (const ChannelPair& pair : pairs) {
+            const MeanPair means = pair.means(pixel);
+            squares += std::pow(means.a.value - means.b.value, 2) / double(pairs.size());
+            variance += (means.a.noise.variance() + means.b.noise.variance()) / double(pairs.size());
+        }
+        excess.add(squares - variance);
+        variances.add(variance);
+    }
+    if (excess.count() < 2 || !(variances.mean() > 0)) return std::nullopt;
+    const double error = excess.standardError(), unit = variances.mean();
+    const double reach = normalQuantile((1 + confidence) / 2) * error;
+    NoiseBudget budget{.expected = unit, .ratio = 1 + excess.mean() / unit};
+    budget.ratioConfidence = {budget.ratio - reach / unit, budget.ratio + reach / unit};
+    budget.z = zTest(excess.mean(), 0, error).z;
+    budget.threshold = twoSidedThreshold(significance);
+    budget.largestBias = std::sqrt(std::max(0.0, excess.mean() + normalQuantile(confidence) * error));
+    return budget;
+}
+
+}  // namespace parhelion

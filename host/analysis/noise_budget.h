@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "analysis/image_pair.h"
+
+namespace parhelion {
+
+/// Whether the mean squared error between two images is what their noise makes of it. Two unbiased images differ by the
+/// sum of their variances; what is above that is a systematic difference, however it is spread over the pixels.
+struct NoiseBudget {
+    double expected = 0;                          ///< mean over pixels and channels of both variances
+    double ratio = 0;                             ///< mean squared error / expected
+    std::array<double, 2> ratioConfidence{0, 0};  ///< of it
+    double z = 0;                                 ///< of mean squared error - expected
+    double threshold = 0;                         ///< |z| beyond which the error is not that of noise
+    /// Upper bound of the root mean square over pixels of the systematic difference, one-sided, at the confidence.
+    double largestBias = 0;
+
+    bool passed() const { return std::abs(z) <= threshold; }
+};
+
+/// The noise of the noise comes from the spread over pixels of squared error - variances, so that heavy tails and
+/// channels that move together count. Absent where the variances are 0 or fewer than two pixels are finite.
+/// @param pairs  the channels of the same two images, with variance layers on one side or both.
+/// @param significance  of the test.
+/// @param confidence  of the interval and the bound.
+std::optional<NoiseBudget> noiseBudget(std::span<const ChannelPair> pairs, glm::uvec2 size, double significance,
+                                       double confidence);
+
+}  // namespace parhelion

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <optional>
+
+#include "reference/core/frame.h"
+#include "reference/geometry/intersection.h"
+#include "reference/sampling/distribution.h"
+#include "reference/sampling/warp.h"
+#include "reference/surface/texture.h"
+
+namespace parhelion::reference {
+
+/// A direction towards a light.
+template <typename Real>
+struct LightSample {
+    Vec3<Real> direction;        ///< unit, away from the vertex
+    Real distance;               ///< to the light point; infinite for directional lights and the environment
+    std::uint32_t target;        ///< primitive of the light point, or kNone
+    Vec3<Real> radianceOverPdf;  ///< selection included
+    Real pdf;                    ///< per steradian, selection included; of no meaning for a delta light
+    bool isDelta;
+};
+
+/// Cosine at an area light of what leaves along `outgoing`: nothing does behind, unless the light has two sides.
+template <typename Real>
+Real lightCosine(const Light<Real>& light, const Vec3<Real>& normal, const Vec3<Real>& outgoing) {
+    const Real cosine = glm::dot(normal, outgoing);
+    return light.isTwoSided && cosine < 0 ? -cosine : std::max(Real(0), cosine);
+}
+
+/// Radiance of an area light at (u, v) of its surface.
+template <typename Real>
+Vec3<Real> emissionAt(const SceneView<Real>& scene, const Light<Real>& light, const Vec2<Real>& uv) {
+    return light.emission * textureAt(scene.source, light.texture, uv);
+}
+
+/// 1 - cos of the half angle under which a sphere is seen; nothing from inside.
+template <typename Real>
+std::optional<Real> oneMinusCosCone(const Sphere<Real>& sphere, const Vec3<Real>& position) {
+    const Vec3<Real> toCenter = sphere.center - position;
+    const Real sin2 = sphere.radius * sphere.radius / glm::dot(toCenter, toCenter);
+    if (!(sin2 < 1)) return std::nullopt;
+    return sin2 / (1 + std::sqrt(1 - sin2));
+}
+
+template <typename Real>
+std::optional<LightSample<Real>> sampleSphereLight(const SceneView<Real>& scene, const Light<Real>& light,
+                                                   const Vec3<Real>& position, const Vec2<Real>& u) {
+    const Sphere<Real>& sphere = scene.spheres[light.primitive - scene.firstSphere];
+    const std::optional<Real> cone = oneMinusCosCone(sphere, position);
+    if (!cone || (scene.isFlipped(sphere.shape) && !light.isTwoSided)) return std::nullopt;
+    const Frame<Real> frame = frameFromNormal(glm::normalize(sphere.center - position));
+    const Vec3<Real> direction = glm::normalize(toWorld(frame, uniformCone(u, *cone)));
+    const auto interval = sphereInterval(sphere, position, direction);
+    // At the rim of the cone rounding may miss the sphere: it is then touched where it is nearest.
+    const Real distance = interval ? interval->t0 : glm::dot(sphere.center - position, direction);
+    const Real pdf = light.selection / (2 * kPi<Real> * *cone);
+    const Vec3<Real> normal = glm::normalize(position + distance * direction - sphere.center);
+    const Vec3<Real> radiance = emissionAt(scene, light, sphereUv(sphere, normal));
+    return LightSample<Real>{direction, distance, light.primitive, radiance / pdf, pdf, false};
+}
+
+/// Turns a uniform point of an area into a sample by solid angle.
+template <typename Real>
+std::optional<LightSample<Real>> sampleArea(const SceneView<Real>& scene, const Light<Real>& light,
+                                            const Vec3<Real>& position, const Vec3<Real>& point, const Vec2<Real>& uv,
+                                            const Vec3<Real>& normal, Real area, std::uint32_t primitive) {
+    const Vec3<Real> toLight = point - position;
+    const Real distance2 = glm::dot(toLight, toLight);
+    if (distance2 == 0) return std::nullopt;
+    const Real distance = std::sqrt(distance2);
+    const Vec3<Real> direction = toLight / distance;
+    const Real cosine = lightCosine(light, normal, -direction);
+    if (cosine == 0) return std::nullopt;
+    const Real pdf = light.selection * distance2 / (area * cosine);
+    return LightSample<Real>{direction, distance, primitive, emissionAt(scene, light, uv) / pdf, pdf, false};
+}
+
+/// @param selector  uniform, what is left of the number that chose the light.
+template <typename Real>
+std::optional<LightSample<Real>> sampleMeshLight(const SceneView<Real>& scene, const Light<Real>& light,
+                                                 const Vec3<Real>& position, Real selector, const Vec2<Real>& u) {
+    const std::span<const float> cdf(&scene.source.lightTriangleCdf[light.cdfOffset], light.triangleCount);
+    const std::uint32_t primitive = scene.source.lightTriangles[light.cdfOffset + firstAbove(cdf, selector)];
+    const std::uint32_t triangle = primitive - scene.firstTriangle;
+    const Vec3<Real> b = uniformTriangle(u);
+    const Vec3<Real> point =
+        b.x * scene.vertex(triangle, 0) + b.y * scene.vertex(triangle, 1) + b.z * scene.vertex(triangle, 2);
+    const Vec2<Real> uv = light.texture == kNone ? Vec2<Real>(0) : triangleUv(scene, triangle, Vec2<Real>(b.y, b.z));
+    return sampleArea(scene, light, position, point, uv, triangleNormal(scene, triangle), light.area, primitive);
+}
+
+}  // namespace parhelion::reference

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include "reference/light/environment.h"
+#include "reference/light/sky.h"
+
+namespace parhelion::reference {
+
+/// A direction towards a light.
+template <typename Real>
+struct LightSample {
+    Vec3<Real> direction;        ///< unit, away from the vertex
+    Real distance;               ///< to the light point; infinite for directional lights and the environment
+    std::uint32_t target;        ///< primitive of the light point, or kNone
+    Vec3<Real> radianceOverPdf;  ///< selection included
+    Real pdf;                    ///< per steradian, selection included; of no meaning for a delta light
+    bool isDelta;
+};
+
+/// A direction towards a light that surrounds the scene; nothing where it has no density.
+///
+/// @param u      the direction, of a constant one.
+/// @param words  the environment draw: the point of a map or a sky.
+template <typename Real>
+std::optional<LightSample<Real>> sampleSurrounding(const SceneView<Real>& scene, const Light<Real>& light,
+                                                   const Vec2<Real>& u, const glm::uvec4& words) {
+    Vec3<Real> direction = uniformSphere(u), radiance = light.emission;
+    Real pdf = 1 / (4 * kPi<Real>);
+    if (light.type == shared::kLightEnvironmentMap) {
+        const EnvironmentSample<Real> point = sampleEnvironment(scene, words);
+        direction = point.direction;
+        radiance = environmentAt(scene, point.direction).radiance;
+        pdf = point.pdf;
+    }
+    if (light.type == shared::kLightSky) {
+        const SkyPoint<Real> point = sampleSky(scene, words);
+        direction = point.direction;
+        radiance = skyRadiance(scene, point);
+        pdf = skyPdf(scene, point);
+    }
+    pdf *= light.selection;
+    if (pdf == 0) return std::nullopt;
+    return LightSample<Real>{direction, kInfinity<Real>, kNone, radiance / pdf, pdf, false};
+}
+
+}  // namespace parhelion::reference

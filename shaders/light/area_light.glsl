@@ -1,0 +1,90 @@
+// Samples of one area light, by solid angle or by area.
+#ifndef LIGHT_AREA_LIGHT_GLSL
+#define LIGHT_AREA_LIGHT_GLSL
+
+#include "core/frame.glsl"
+#include "core/scene.glsl"
+#include "geometry/intersection.glsl"
+#include "sampling/distribution.glsl"
+#include "sampling/warp.glsl"
+#include "surface/texture.glsl"
+
+struct LightSample {
+    vec3 direction;         // unit, towards the light
+    float distance;         // to the light point; infinite for directional and environment
+    vec3 radianceOverPdf;   // 0 where the light cannot be seen
+    float pdf;              // per steradian, selection included; infinite for delta lights
+    uint target;            // primitive to ignore on the way
+};
+
+// Shader only: the reference refers to lights.
+Light lightAt(uint index) {
+    if (!hasManyLights) return nearLight;
+    return scene.lights[index];
+}
+
+// Shader only: as above.
+Quad quadOf(Light light) {
+    if (!hasManyLights) return nearLightQuad;
+    return scene.quads[light.primitive];
+}
+
+// Shader only: as above.
+Sphere sphereOf(Light light) {
+    if (!hasManyLights) return nearLightSphere;
+    return scene.spheres[light.primitive - quadCount];
+}
+
+// Cosine at an area light of what leaves along `outgoing`, which need not be unit; 0 where nothing does.
+float lightCosine(Light light, vec3 normal, vec3 outgoing) {
+    float cosine = dot(normal, outgoing);
+    if (hasTwoSidedLights && (light.flags & kLightTwoSided) != 0u) cosine = abs(cosine);
+    return max(cosine, 0.0);
+}
+
+// Radiance of an area light at (u, v) of its surface.
+vec3 emissionAt(Light light, vec2 uv) {
+    if (!hasTexturedLights) return light.emission;
+    return light.emission * textureAt(light.texture, uv);
+}
+
+// 1 - cos of the half angle under which a sphere is seen from outside; 0 from inside (numerics H62).
+float oneMinusCosCone(vec3 toCenter, float radius) {
+    float sine2 = radius * radius / dot(toCenter, toCenter);
+    return sine2 < 1.0 ? sine2 / (1.0 + sqrt(1.0 - sine2)) : 0.0;
+}
+
+LightSample sampleSphereLight(Light light, vec3 position, vec2 u) {
+    Sphere s = sphereOf(light);
+    vec3 toCenter = s.center - position;
+    float cone = oneMinusCosCone(toCenter, s.radius);
+    float pdf = light.selection * safeDivide(0.5 * kInvPi, cone);
+    vec3 direction = toWorld(frameFromNormal(normalize(toCenter)), uniformCone(u, cone));
+    vec2 interval = sphereInterval(s.center, s.radius, position, direction);
+    float distance = interval.y >= interval.x ? interval.x : dot(toCenter, direction);  // grazing: rounding missed it
+    vec2 uv = hasTexturedLights ? sphereUv(s, normalize(position + distance * direction - s.center)) : vec2(0.0);
+    return LightSample(direction, distance, emissionAt(light, uv) * safeDivide(1.0, pdf), pdf, light.primitive);
+}
+
+// Sample of an area given by a point on it, its (u, v), its front normal and its area.
+LightSample sampleArea(Light light, vec3 position, vec3 point, vec2 uv, vec3 normal, float area, uint primitive) {
+    vec3 toLight = point - position;
+    float square = dot(toLight, toLight);
+    float distance = sqrt(square);
+    vec3 direction = toLight * safeDivide(1.0, distance);
+    float cosine = lightCosine(light, normal, -direction);
+    float pdf = light.selection * safeDivide(square, cosine * area);
+    return LightSample(direction, distance, emissionAt(light, uv) * safeDivide(1.0, pdf), pdf, primitive);
+}
+
+LightSample sampleMeshLight(Light light, vec3 position, float selector, vec2 u, inout uint tests) {
+    uint entry = light.cdfOffset + firstAbove(light.cdfOffset, light.triangleCount, selector);
+    tests += kSearchSteps + 1u;
+    uint primitive = texelFetch(lightTriangleTexels, int(entry)).x;
+    vec3 b = uniformTriangle(u);
+    uint first = quadCount + sphereCount + boxCount;
+    Surface surface = triangleSurface(primitive - first, b.yz);
+    return sampleArea(light, position, surface.position, surface.uv, surface.geometricNormal, light.area, primitive);
+}
+
+#endif

@@ -1,0 +1,38 @@
+// Lights that surround the scene, and what sampling any light gives.
+#ifndef LIGHT_SURROUNDING_GLSL
+#define LIGHT_SURROUNDING_GLSL
+
+#include "light/environment.glsl"
+#include "light/sky.glsl"
+
+struct LightSample {
+    vec3 direction;         // unit, towards the light
+    float distance;         // to the light point; infinite for directional and environment
+    vec3 radianceOverPdf;   // 0 where the light cannot be seen
+    float pdf;              // per steradian, selection included; infinite for delta lights
+    uint target;            // primitive to ignore on the way
+};
+
+// A direction towards a light that surrounds the scene: by u where it is constant, by `words` (the environment draw) on a
+// map or a sky.
+LightSample sampleSurrounding(Light light, vec2 u, uvec4 words) {
+    LightSample result = LightSample(vec3(0.0, 0.0, 1.0), kInfinity, vec3(0.0), 1.0, kNone);
+    if (light.type == kLightEnvironment) {
+        float pdf = kInvFourPi * light.selection;
+        result = LightSample(uniformSphere(u), kInfinity, light.emission / pdf, pdf, kNone);
+    }
+    if (hasEnvironmentMap && light.type == kLightEnvironmentMap) {
+        vec4 point = sampleEnvironment(words);
+        float pdf = point.w * light.selection;
+        vec3 radiance = environmentAt(point.xyz).rgb;
+        result = LightSample(point.xyz, kInfinity, radiance * safeDivide(1.0, pdf), pdf, kNone);
+    }
+    if (hasSky && light.type == kLightSky) {
+        SkyPoint point = sampleSky(words);
+        float pdf = skyPdf(point) * light.selection;
+        result = LightSample(point.direction, kInfinity, skyRadiance(point) * safeDivide(1.0, pdf), pdf, kNone);
+    }
+    return result;
+}
+
+#endif
