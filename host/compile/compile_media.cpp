@@ -87,6 +87,12 @@ void writeAlbedo(const MediumDescription& medium, const glm::dvec3& worldOrigin,
     scene.albedoVoxels.insert(scene.albedoVoxels.end(), texels.begin(), texels.end());
 }
 
+/// Lengths of a voxel's edges [scene units].
+glm::dvec3 voxelEdges(const GridPlacement& placement, glm::uvec3 resolution) {
+    const glm::dmat4& axes = placement.toWorld;
+    return glm::dvec3(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])) / glm::dvec3(resolution);
+}
+
 void writeDensity(const MediumDescription& medium, const ExtinctionGrid* extinction, const glm::dvec3& worldOrigin,
                   bool bricked, shared::Medium& record, CompiledScene& scene) {
     if (!extinction) {
@@ -95,7 +101,8 @@ void writeDensity(const MediumDescription& medium, const ExtinctionGrid* extinct
         return;
     }
     const DensityGrid& grid = extinction->largest();
-    const MajorantGrid majorants = buildMajorants(grid);
+    const MajorantGrid majorants =
+        chooseMajorants(grid, double(record.sigmaMax) * voxelEdges(*medium.density, grid.resolution()));
     if (!std::isfinite(record.sigmaMax * *std::ranges::max_element(majorants.bounds)))
         throw InputError(medium.density->where, nameOf(medium) +
                                                     ": sigma_t times the largest density must be within "
@@ -104,6 +111,7 @@ void writeDensity(const MediumDescription& medium, const ExtinctionGrid* extinct
     record.gridFromWorld =
         voxelsFromScene(*medium.density, record.resolution, worldOrigin, nameOf(medium) + ": sigma_t");
     record.cells = majorants.cells;
+    record.cellLevel = majorants.level;
     record.cellOffset = std::uint32_t(scene.majorants.size());
     scene.majorants.insert(scene.majorants.end(), majorants.bounds.begin(), majorants.bounds.end());
     if (const ColorGrid* color = extinction->color()) {

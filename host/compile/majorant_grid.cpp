@@ -12,7 +12,7 @@ namespace parhelion {
 namespace {
 
 constexpr int kSize = int(DensityGrid::kBrickSize);
-static_assert(shared::kVoxelsPerCell == DensityGrid::kBrickSize, "a majorant cell is a brick");
+static_assert(shared::kVoxelsPerCell == DensityGrid::kBrickSize, "the smallest majorant cell is a brick");
 
 /// Voxels of a brick that its neighbour at `offset` (-1, 0 or 1 an axis) reads: the layer next to it, or all.
 struct VoxelRange {
@@ -62,7 +62,7 @@ float boundOf(const DensityGrid& density, const glm::ivec3& cell) {
 }  // namespace
 
 MajorantGrid buildMajorants(const DensityGrid& density) {
-    MajorantGrid grid{density.brickCounts(), {}};
+    MajorantGrid grid{density.brickCounts(), {}, 0};
     const glm::uvec3 cells = grid.cells;
     grid.bounds.resize(std::size_t(cells.x) * cells.y * cells.z);
     parallelFor(
@@ -73,6 +73,23 @@ MajorantGrid buildMajorants(const DensityGrid& density) {
         },
         64);
     return grid;
+}
+
+float MajorantGrid::at(const glm::dvec3& p) const {
+    const glm::uvec3 c(glm::clamp(p / double(cellSize()), glm::dvec3(0.0), glm::dvec3(cells) - 0.5));
+    return bounds[(std::size_t(c.z) * cells.y + c.y) * cells.x + c.x];
+}
+
+MajorantGrid coarsen(const MajorantGrid& fine) {
+    MajorantGrid coarse{(fine.cells + 1u) / 2u, {}, fine.level + 1};
+    coarse.bounds.assign(std::size_t(coarse.cells.x) * coarse.cells.y * coarse.cells.z, 0.0f);
+    for (std::size_t i = 0; i < fine.bounds.size(); ++i) {
+        const std::size_t row = i / fine.cells.x;
+        const glm::uvec3 c = glm::uvec3(i % fine.cells.x, row % fine.cells.y, row / fine.cells.y) / 2u;
+        float& bound = coarse.bounds[(std::size_t(c.z) * coarse.cells.y + c.y) * coarse.cells.x + c.x];
+        bound = std::max(bound, fine.bounds[i]);
+    }
+    return coarse;
 }
 
 }  // namespace parhelion

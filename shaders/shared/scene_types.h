@@ -122,7 +122,7 @@ struct Medium {
     float g;                  // mean cosine of Henyey-Greenstein, |g| <= 1 - 2^-20
     uvec3 resolution;         // density voxels per axis
     uint voxelOffset;         // first voxel in `density` (dense), or first entry in `brickTable`
-    uvec3 cells;              // majorant cells per axis: ceil(resolution / kVoxelsPerCell)
+    uvec3 cells;              // majorant cells per axis: ceil(resolution / (kVoxelsPerCell << cellLevel))
     uint cellOffset;          // first cell in `majorants`
     mat4x3 albedoFromWorld;   // world -> voxel units of the albedo grid
     uvec3 albedoResolution;
@@ -133,12 +133,12 @@ struct Medium {
     float lobeWeight;         // dual: probability of the first lobe, a multiple of 2^-24 in (0, 1)
     uint phaseOffset;         // tabulated: first entry in `phaseTable`
     uint phaseCount;          // tabulated: intervals of mu
-    uint reserved0;
-    uint reserved1;
+    uint cellLevel;           // majorant cells span kVoxelsPerCell << cellLevel voxels an axis
+    uint reserved;
 };
 SHARED_LAYOUT(Medium, 208);
 
-SHARED_CONST(uint, kVoxelsPerCell, 8u);   // majorant cells and bricks are 8^3 voxels
+SHARED_CONST(uint, kVoxelsPerCell, 8u);   // bricks, and the smallest majorant cells, are 8^3 voxels
 SHARED_CONST(uint, kEmptyBrick, 0xffffffffu);
 
 SHARED_CONST(uint, kLightDirectional, 0u);

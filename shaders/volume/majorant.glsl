@@ -16,6 +16,7 @@ struct GridRay {
     vec3 forward;  // 1 on axes with a positive direction
     ivec3 border;  // last cell on the way; the start cell's own where the ray does not move
     ivec3 stride;  // +-1
+    float cellSize;  // voxels
 };
 
 GridRay gridRay(Medium medium, vec3 origin, vec3 direction, ivec3 cell) {
@@ -23,7 +24,8 @@ GridRay gridRay(Medium medium, vec3 origin, vec3 direction, ivec3 cell) {
     ivec3 last = ivec3(medium.cells) - 1;
     ivec3 border = mix(mix(ivec3(0), last, greaterThan(d, vec3(0.0))), cell, equal(d, vec3(0.0)));
     vec3 forward = mix(vec3(0.0), vec3(1.0), greaterThan(d, vec3(0.0)));
-    return GridRay(medium.gridFromWorld * vec4(origin, 1.0), d, 1.0 / d, forward, border, 2 * ivec3(forward) - 1);
+    return GridRay(medium.gridFromWorld * vec4(origin, 1.0), d, 1.0 / d, forward, border, 2 * ivec3(forward) - 1,
+                   float(kVoxelsPerCell << medium.cellLevel));
 }
 
 // Where the ray is inside the grid's box: a grid medium ends there, whatever its boundary encloses.
@@ -41,13 +43,13 @@ vec2 gridInterval(Medium medium, vec3 origin, vec3 direction) {
 // Cell of the point at distance t.
 ivec3 startCell(Medium medium, vec3 origin, vec3 direction, float t) {
     vec3 p = medium.gridFromWorld * vec4(origin, 1.0) + t * (mat3(medium.gridFromWorld) * direction);
-    vec3 cell = clamp(floor(p * (1.0 / float(kVoxelsPerCell))), vec3(0.0), vec3(medium.cells - 1u));
+    vec3 cell = clamp(floor(p * (1.0 / float(kVoxelsPerCell << medium.cellLevel))), vec3(0.0), vec3(medium.cells - 1u));
     return ivec3(cell);
 }
 
 // Distance at which the ray leaves `cell` along each axis; infinite where no next cell is.
 vec3 planeDistances(GridRay ray, ivec3 cell) {
-    vec3 t = ((vec3(cell) + ray.forward) * float(kVoxelsPerCell) - ray.origin) * ray.inverse;
+    vec3 t = ((vec3(cell) + ray.forward) * ray.cellSize - ray.origin) * ray.inverse;
     return mix(t, vec3(kInfinity), equal(cell, ray.border));
 }
 

@@ -17,11 +17,15 @@ using test::Stress;
 
 constexpr glm::uvec3 kResolution(40, 17, 9);
 
-/// H25: voxels of different sizes along the axes. Every majorant cell has its own bound.
-test::HandScene majorantScene() {
+/// H25: voxels of different sizes along the axes. Every majorant cell, of 8 * 2^level voxels, has its own bound.
+test::HandScene majorantScene(std::uint32_t level) {
     test::HandScene built;
     const std::vector<float> voxels(kResolution.x * kResolution.y * kResolution.z, 1.0f);
     built.addGrid(1, glm::vec3(1), kResolution, voxels, {-1, -2, -0.05f}, {1, 3, 0.05f});
+    shared::Medium& medium = built.scene.constants.media[0];
+    medium.cellLevel = level;
+    medium.cells = (kResolution + (8u << level) - 1u) / (8u << level);
+    built.scene.majorants.resize(std::size_t(medium.cells.x) * medium.cells.y * medium.cells.z);
     for (std::size_t i = 0; i < built.scene.majorants.size(); ++i) built.scene.majorants[i] = 1 + float(i);
     return built;
 }
@@ -39,7 +43,7 @@ std::vector<glm::vec4> rays() {
     return inputs;
 }
 
-class MajorantParity : public testing::Test {
+class MajorantParity : public testing::TestWithParam<std::uint32_t> {
 protected:
     static constexpr std::size_t kRows = 6;
 
@@ -51,7 +55,7 @@ protected:
         return reference::gridRay(medium_, glm::dvec3(inputs_[2 * i]), glm::dvec3(inputs_[2 * i + 1]));
     }
 
-    test::HandScene built_ = majorantScene();
+    test::HandScene built_ = majorantScene(GetParam());
     reference::SceneView<double> view_{built_.scene};
     const reference::Medium<double>& medium_ = view_.media[0];
     std::vector<glm::vec4> inputs_ = rays();
@@ -59,7 +63,7 @@ protected:
 };
 
 // H39: 0 * infinity of rays that run along the grid's faces.
-TEST_F(MajorantParity, RayAndItsWayThroughTheGridAgreeH39) {
+TEST_P(MajorantParity, RayAndItsWayThroughTheGridAgreeH39) {
     // Rows of the affine map: three products and sums.
     Parity affine("volume/majorant", "gridRay", 6);
     // Origin 6, difference 1, quotient of a sum of three (2.5 ulp, 5) 11, product 1.
@@ -85,7 +89,7 @@ TEST_F(MajorantParity, RayAndItsWayThroughTheGridAgreeH39) {
 }
 
 // H26: planes from the integer cell; H27: no 0 * infinity where the ray does not move along an axis.
-TEST_F(MajorantParity, CellsAgreeStepByStepH25H26H27) {
+TEST_P(MajorantParity, CellsAgreeStepByStepH25H26H27) {
     Parity cell("volume/majorant", "startCell", 0), bound("volume/majorant", "majorantAt", 0);
     Parity planes("volume/majorant", "planeDistances", 19), next("volume/majorant", "nextCell", 0);
     int compared = 0;
@@ -93,7 +97,7 @@ TEST_F(MajorantParity, CellsAgreeStepByStepH25H26H27) {
         const glm::vec4* rows = &outputs_[kRows * i];
         reference::CellWalk<double> walk = walkOf(i);
         reference::startCell(medium_, double(inputs_[2 * i].w), walk);
-        const glm::dvec3 p = (walk.origin + walk.t * walk.direction) / double(shared::kVoxelsPerCell);
+        const glm::dvec3 p = (walk.origin + walk.t * walk.direction) / double(shared::kVoxelsPerCell << GetParam());
         const glm::dvec3 toPlane = glm::abs(p - glm::round(p)), size = sizeOf(walk);
         if (std::min({toPlane.x, toPlane.y, toPlane.z}) < 1e-4) continue;  // on a plane: either cell will do
         ++compared;
@@ -112,6 +116,8 @@ TEST_F(MajorantParity, CellsAgreeStepByStepH25H26H27) {
     }
     EXPECT_GT(compared, 5'000);
 }
+
+INSTANTIATE_TEST_SUITE_P(CellLevels, MajorantParity, testing::Values(0u, 1u, 2u));
 
 }  // namespace
 }  // namespace parhelion

@@ -61,6 +61,7 @@ struct Medium {
     std::uint32_t phaseCount;           ///< intervals of phaseTable
     const float* phaseTable = nullptr;  ///< null unless tabulated
     glm::ivec3 resolution, cells, albedoResolution;
+    std::uint32_t cellLevel = 0;
     const float* density = nullptr;             ///< first voxel (dense), or the whole brick pool
     const std::uint32_t* brickTable = nullptr;  ///< null when dense
     const float* majorants = nullptr;
@@ -137,6 +138,7 @@ Medium<Real> viewMedium(const CompiledScene& scene, const shared::Medium& m) {
     if (m.phase == shared::kPhaseTabulated) v.phaseTable = scene.phaseTable.data() + m.phaseOffset;
     v.resolution = m.resolution;
     v.cells = m.cells;
+    v.cellLevel = m.cellLevel;
     v.albedoResolution = m.albedoResolution;
     v.homogeneous = (m.flags & shared::kMediumHomogeneous) != 0;
     v.colored = (m.flags & shared::kMediumColorDensity) != 0;

@@ -13,7 +13,7 @@ Real densityVoxel(const Medium<Real>& medium, const glm::ivec3& index) {
         return Real(medium.density[(std::size_t(i.z) * n.y + i.y) * n.x + i.x]);
     }
     const glm::ivec3 brick = i >> 3, within = i & 7;
-    const glm::ivec3& n = medium.cells;
+    const glm::ivec3 n = (medium.resolution + 7) >> 3;
     const std::uint32_t first = medium.brickTable[(std::size_t(brick.z) * n.y + brick.y) * n.x + brick.x];
     if (first == shared::kEmptyBrick) return 0;
     return Real(medium.density[std::size_t(first) + (within.z * 8 + within.y) * 8 + within.x]);

@@ -15,6 +15,13 @@ struct CellWalk {
     Real bound;         ///< density bound of the cell
 };
 
+/// Voxels along an edge of a majorant cell.
+/// Reference only: spelt out in the shader.
+template <typename Real>
+int cellSizeOf(const Medium<Real>& medium) {
+    return int(shared::kVoxelsPerCell) << medium.cellLevel;
+}
+
 /// The ray in voxel units; where it is in the grid is still to be said.
 template <typename Real>
 CellWalk<Real> gridRay(const Medium<Real>& medium, const Vec3<Real>& origin, const Vec3<Real>& direction) {
@@ -47,7 +54,7 @@ Vec2<Real> gridInterval(const Medium<Real>& medium, const CellWalk<Real>& walk) 
 template <typename Real>
 void startCell(const Medium<Real>& medium, Real t, CellWalk<Real>& walk) {
     walk.t = t;
-    const Vec3<Real> cell = glm::floor((walk.origin + t * walk.direction) / Real(shared::kVoxelsPerCell));
+    const Vec3<Real> cell = glm::floor((walk.origin + t * walk.direction) / Real(cellSizeOf(medium)));
     walk.cell = glm::ivec3(glm::clamp(cell, Vec3<Real>(0), Vec3<Real>(medium.cells - 1)));
     walk.bound = majorantAt(medium, walk);
     planeDistances(medium, walk);
@@ -61,7 +68,7 @@ Real planeDistance(const Medium<Real>& medium, const CellWalk<Real>& walk, int a
     const Real d = walk.direction[axis];
     const int next = walk.cell[axis] + (d > 0 ? 1 : -1);
     if (d == 0 || next < 0 || next >= medium.cells[axis]) return kInfinity<Real>;
-    const int plane = int(shared::kVoxelsPerCell) * (walk.cell[axis] + (d > 0 ? 1 : 0));
+    const int plane = cellSizeOf(medium) * (walk.cell[axis] + (d > 0 ? 1 : 0));
     return (Real(plane) - walk.origin[axis]) * walk.inverse[axis];
 }
 
