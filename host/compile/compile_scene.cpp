@@ -11,6 +11,7 @@
 #include "compile/compile_lights.h"
 #include "compile/compile_media.h"
 #include "compile/compile_textures.h"
+#include "compile/extinction_grid.h"
 #include "compile/nesting.h"
 
 namespace parhelion {
@@ -138,13 +139,13 @@ private:
 /// Positions are floats about the camera, u = 2^-23 D apart at the largest coordinate D. Rounding adds u^2 / 12 to the
 /// variance along each axis of a free flight of mean l, which is 2 l^2 / 3: a share of u^2 / (8 l^2), 0.2 % at l = 8 u.
 /// At a surface it shows a little more: measured there, the albedo of a half-space is off by 0.5 %.
-void noteCoarsePositions(const Selection& selection, CompiledScene& scene) {
+void noteCoarsePositions(Selection& selection, CompiledScene& scene) {
     for (const KeptShape& shape : selection.shapes()) {
         if (shape.interior == shared::kNone) continue;
         const MediumDescription& medium = *selection.media()[shape.interior];
         const glm::dvec3 farthest = glm::max(glm::abs(shape.placed->lower), glm::abs(shape.placed->upper));
         const double spacing = 0x1p-23 * std::max({farthest.x, farthest.y, farthest.z});
-        const double density = medium.density ? medium.density->volume.density.maximum() : 1.0;
+        const double density = medium.density ? largestValue(medium.density->volume) : 1.0;
         const double meanFreePath = 1.0 / (scene.constants.media[shape.interior].sigmaMax * density);
         if (meanFreePath >= 8.0 * spacing) continue;
         scene.notes.push_back(fmt::format(

@@ -5,17 +5,10 @@
 #include "core/frame.glsl"
 #include "core/scene.glsl"
 #include "geometry/intersection.glsl"
+#include "light/light_sample.glsl"
 #include "sampling/distribution.glsl"
 #include "sampling/warp.glsl"
 #include "surface/texture.glsl"
-
-struct LightSample {
-    vec3 direction;         // unit, towards the light
-    float distance;         // to the light point; infinite for directional and environment
-    vec3 radianceOverPdf;   // 0 where the light cannot be seen
-    float pdf;              // per steradian, selection included; infinite for delta lights
-    uint target;            // primitive to ignore on the way
-};
 
 // Shader only: the reference refers to lights.
 Light lightAt(uint index) {

@@ -1,17 +1,10 @@
-// Lights that surround the scene, and what sampling any light gives.
+// Lights that surround the scene.
 #ifndef LIGHT_SURROUNDING_GLSL
 #define LIGHT_SURROUNDING_GLSL
 
 #include "light/environment.glsl"
+#include "light/light_sample.glsl"
 #include "light/sky.glsl"
-
-struct LightSample {
-    vec3 direction;         // unit, towards the light
-    float distance;         // to the light point; infinite for directional and environment
-    vec3 radianceOverPdf;   // 0 where the light cannot be seen
-    float pdf;              // per steradian, selection included; infinite for delta lights
-    uint target;            // primitive to ignore on the way
-};
 
 // A direction towards a light that surrounds the scene: by u where it is constant, by `words` (the environment draw) on a
 // map or a sky.

@@ -4,22 +4,12 @@
 
 #include "reference/core/frame.h"
 #include "reference/geometry/intersection.h"
+#include "reference/light/light_sample.h"
 #include "reference/sampling/distribution.h"
 #include "reference/sampling/warp.h"
 #include "reference/surface/texture.h"
 
 namespace parhelion::reference {
-
-/// A direction towards a light.
-template <typename Real>
-struct LightSample {
-    Vec3<Real> direction;        ///< unit, away from the vertex
-    Real distance;               ///< to the light point; infinite for directional lights and the environment
-    std::uint32_t target;        ///< primitive of the light point, or kNone
-    Vec3<Real> radianceOverPdf;  ///< selection included
-    Real pdf;                    ///< per steradian, selection included; of no meaning for a delta light
-    bool isDelta;
-};
 
 /// Cosine at an area light of what leaves along `outgoing`: nothing does behind, unless the light has two sides.
 template <typename Real>
