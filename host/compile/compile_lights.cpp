@@ -19,6 +19,9 @@ namespace parhelion {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+// A sky up to this contrast is left to scattering, as a constant one is: a light sample of it has about the variance of
+// a scattered direction, costs a shadow ray, and takes the place of a sample of a light that only sampling finds.
+constexpr double kLowContrast = 2.0;
 
 bool isBlack(const glm::vec3& rgb) { return rgb == glm::vec3(0.0f); }
 
@@ -122,7 +125,7 @@ public:
         if (emitter.misCompensation && !scatteringCounts)
             scene_.notes.push_back("environment map: without scattering samples there is no MIS compensation");
         const glm::dvec3 mean = compileEnvironment(emitter, emitter.misCompensation && scatteringCounts, scene_);
-        addSurrounding(shared::kLightEnvironmentMap, "environment map", mean, emitter.where);
+        addSurrounding(shared::kLightEnvironmentMap, "environment map", mean, true, emitter.where);
     }
 
     void addSky(const EmitterDescription& emitter) {
@@ -135,17 +138,21 @@ public:
             return uniform.value == glm::dvec3(0.0) ? noteBlack("sky") : addEmitter(uniform);
         }
         const glm::dvec3 mean = compileSky(emitter.sky, emitter.where, scene_);
-        addSurrounding(shared::kLightSky, "sky", mean, emitter.where);
+        const bool sampled =
+            sampleEveryLight_ || mean == glm::dvec3(0.0) || skyContrast(emitter.sky, scene_) > kLowContrast;
+        addSurrounding(shared::kLightSky, "sky", mean, sampled, emitter.where);
     }
 
     /// A light that shines from everywhere, of the given mean radiance.
-    void addSurrounding(std::uint32_t type, const char* name, const glm::dvec3& mean, const SourceLocation& where) {
+    void addSurrounding(std::uint32_t type, const char* name, const glm::dvec3& mean, bool sampled,
+                        const SourceLocation& where) {
         if (mean == glm::dvec3(0.0)) return noteBlack(name);
         shared::Light light{};
         light.emission = glm::vec3(mean);  // for those who list lights
         light.type = type;
         light.texture = light.primitive = shared::kNone;
-        append({light, 4.0 * kPi * kPi * radius_ * radius_ * luminance(mean), shared::kNone}, where);
+        const double power = sampled ? 4.0 * kPi * kPi * radius_ * radius_ * luminance(mean) : 0.0;
+        append({light, power, shared::kNone}, where);
     }
 
     /// Lights that are sampled come first, so that the others need no place in the search.

@@ -122,4 +122,16 @@ glm::dvec3 compileSky(const SkyDescription& sky, const SourceLocation& where, Co
     return gradient + starlight;
 }
 
+double skyContrast(const SkyDescription& sky, const CompiledScene& scene) {
+    const double gradient = luminance(meanOfGradient(sky)), brightest = luminance(sky.starRadiance);
+    double mean = gradient, square = 0.0;
+    for (const double bound : bandBounds(sky)) square += bound * bound / kSkyBands;
+    for (std::size_t i = 0; i + 1 < scene.stars.size(); i += 2) {
+        const double share = 0.5 * scene.stars[i].w, star = scene.stars[i + 1].x * brightest;  // of the sphere
+        square += share * star * (star + 2.0 * gradient);
+        mean += share * star;
+    }
+    return square / (mean * mean);
+}
+
 }  // namespace parhelion

@@ -28,8 +28,8 @@ const float kDistanceMargin = 0.001;
 
 void hitLeaf(inout Hit best, Ray ray, RayShear shear, int leaf, uint firstPrimitive) {
     uint first = uint(leaf) >> 3u, count = uint(leaf) & 7u;
-    for (uint i = 0u; i < kMaxLeafTriangles; ++i) {
-        uint triangle = first + min(i, count - 1u);
+    for (uint i = 0u; i < count; ++i) {
+        uint triangle = first + i;
         int texel = int(kTriangleTexels * triangle);
         vec4 v0 = texelFetch(triangleTexels, texel);
         bool isNull = (shapeAt(floatBitsToUint(v0.w)).flags & kShapeNull) != 0u;
@@ -58,19 +58,22 @@ bool traverse(inout Hit best, Ray ray, uint firstPrimitive, bool active_, inout 
     uint steps = 0u;
     float tMin = ray.tMin * (1.0 - kDistanceMargin);
     while (node != kBvhEnd && steps < kMaxTraversalSteps) {
-        ++steps;
-        int texel = int(kBvhNodeTexels) * max(node, 0);
-        vec4 min0 = texelFetch(bvhTexels, texel), max0 = texelFetch(bvhTexels, texel + 1);
-        vec4 min1 = texelFetch(bvhTexels, texel + 2), max1 = texelFetch(bvhTexels, texel + 3);
-        float t0 = boxEntry(min0.xyz, max0.xyz, ray.origin, inverse, tMin, best.t * (1.0 + kDistanceMargin));
-        float t1 = boxEntry(min1.xyz, max1.xyz, ray.origin, inverse, tMin, best.t * (1.0 + kDistanceMargin));
-        int child0 = floatBitsToInt(min0.w), child1 = floatBitsToInt(min1.w);
-        if (node >= 0) {
+        // Down to a leaf in a loop of its own: lanes do not wait for triangles at every node.
+        uint down = 0u;
+        while (node >= 0 && node != kBvhEnd && steps + down < kMaxTraversalSteps) {
+            ++down;
+            int texel = int(kBvhNodeTexels) * node;
+            vec4 min0 = texelFetch(bvhTexels, texel), max0 = texelFetch(bvhTexels, texel + 1);
+            vec4 min1 = texelFetch(bvhTexels, texel + 2), max1 = texelFetch(bvhTexels, texel + 3);
+            float t0 = boxEntry(min0.xyz, max0.xyz, ray.origin, inverse, tMin, best.t * (1.0 + kDistanceMargin));
+            float t1 = boxEntry(min1.xyz, max1.xyz, ray.origin, inverse, tMin, best.t * (1.0 + kDistanceMargin));
+            int child0 = floatBitsToInt(min0.w), child1 = floatBitsToInt(min1.w);
             bool swap = t1 < t0;
             int near = swap ? child1 : child0, far = swap ? child0 : child1;
             if (max(t0, t1) < kInfinity) stack[depth++] = far;
             node = min(t0, t1) < kInfinity ? near : (depth > 0 ? stack[--depth] : kBvhEnd);
         }
+        steps += subgroupMax(down) + 1u;  // of all lanes still here: those that stay longest count what the subgroup spends
         if (node < 0) {
             hitLeaf(best, ray, shear, ~node, firstPrimitive);
             node = depth > 0 ? stack[--depth] : kBvhEnd;

@@ -101,8 +101,8 @@ TEST(NullCollisions, OfProbabilityZeroNeverDivide) {  // H19: density at its bou
         for (std::uint32_t word = 0; word < 1u << 24; ++word) {
             const auto u = float(word) * 0x1p-24f;
             Throughput<float> throughput;
-            if (!reference::decideFlight(grey, bound, bound, u, 0, throughput) ||
-                !reference::decideFlight(chromatic, bound, bound, u, 1, throughput) ||
+            if (!reference::decideFlight(grey, glm::vec3(bound), bound, u, 0, throughput) ||
+                !reference::decideFlight(chromatic, glm::vec3(bound), bound, u, 1, throughput) ||
                 !std::isfinite(throughput.beta.x + throughput.r.z))
                 FAIL() << "u " << u << " bound " << bound;
         }

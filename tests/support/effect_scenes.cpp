@@ -109,6 +109,7 @@ std::vector<NamedScene> skyScenes(glm::uvec2 size) {
         {"sky sampled, fog", compileText(sceneXml(kSky + kSphereLight + greyBox), size, everyLight)},
         {"empty sky", compiled(kSky)},
         {"gradient sky, fog", compiled(kFloor + gradientSky("") + greyBox)},
+        {"gradient sky sampled, fog", compileText(sceneXml(kFloor + gradientSky("") + greyBox), size, everyLight)},
         {"starry sky, cloud, sun", compiled(kFloor + gradientSky(kStars) + kSun + isotropicCloud)},
         {"environment map, fog", compiled(kFloor + environmentMap() + greyBox)},
         {"environment map, lamp", compiled(kFloor + environmentMap() + kQuadLight)},

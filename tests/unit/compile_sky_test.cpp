@@ -85,7 +85,9 @@ TEST(CompiledSky, DropsWhatIsBlackWithANote) {
 }
 
 TEST(CompiledSky, IsASampledEnvironment) {
-    const CompiledScene scene = compiled(test::starrySky());
+    SkyDescription sky = test::starrySky();
+    sky.starRadiance *= 100.0;
+    const CompiledScene scene = compiled(sky);
     EXPECT_EQ(scene.constants.environment, 0u);
     EXPECT_EQ(scene.constants.lights[0].type, shared::kLightSky);
     EXPECT_EQ(scene.constants.lights[0].selection, 1.0f);
@@ -93,6 +95,35 @@ TEST(CompiledSky, IsASampledEnvironment) {
     for (const Effect effect :
          {Effect::hasEnvironment, Effect::hasEnvironmentSampling, Effect::hasSky, Effect::hasStars})
         EXPECT_TRUE(scene.effects.has(effect));
+}
+
+TEST(CompiledSky, OfLowContrastIsLeftToScattering) {
+    const SkyDescription linear = gradient({0, 0, 0}, {1, 1, 1});
+    const CompiledScene smooth = compiled(linear);
+    // Luminance uniform in [0, 1]: (1 / 3) / (1 / 4). Bands count by their largest value: up to 1 / 256 more of it.
+    EXPECT_GE(skyContrast(linear, smooth), 4.0 / 3.0);
+    EXPECT_LE(skyContrast(linear, smooth), 4.0 / 3.0 * (1.0 + 1.51 / kSkyBands));
+    EXPECT_EQ(smooth.constants.lights[0].selection, 0.0f);
+    EXPECT_FALSE(smooth.effects.has(Effect::hasEnvironmentSampling));
+
+    SkyDescription spot = linear;
+    spot.power = 1e5;
+    EXPECT_EQ(compiled(spot).constants.lights[0].selection, 1.0f);
+}
+
+TEST(CompiledSky, ContrastCountsStars) {
+    SkyDescription sky = gradient({1, 1, 1}, {1, 1, 1});
+    sky.starDensity = 10;
+    sky.starSizeDegrees = 2;
+    sky.starRadiance = glm::dvec3(50);
+    const CompiledScene scene = compiled(sky);
+    double mean = 1, square = 1;
+    for (std::size_t i = 0; i < scene.stars.size(); i += 2) {
+        const double share = (1 - std::cos(std::numbers::pi / 180)) / 2, star = 50.0 * scene.stars[i + 1].x;
+        mean += share * star;
+        square += share * ((1 + star) * (1 + star) - 1);
+    }
+    EXPECT_NEAR(skyContrast(sky, scene), square / (mean * mean), 1e-5 * square);
 }
 
 TEST(CompiledSky, MeanRadianceIsTheIntegralOverTheSphere) {

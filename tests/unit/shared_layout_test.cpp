@@ -107,7 +107,7 @@ TEST(SharedLayout, MediumIsTheSameInBothLanguages) {
                  {MEMBER(gridFromWorld), MEMBER(sigmaRatio), MEMBER(sigmaMax), MEMBER(albedo), MEMBER(g),
                   MEMBER(resolution), MEMBER(voxelOffset), MEMBER(cells), MEMBER(cellOffset), MEMBER(albedoFromWorld),
                   MEMBER(albedoResolution), MEMBER(albedoOffset), MEMBER(phase), MEMBER(flags), MEMBER(g2),
-                  MEMBER(lobeWeight), MEMBER(phaseOffset), MEMBER(phaseCount)});
+                  MEMBER(lobeWeight), MEMBER(phaseOffset), MEMBER(phaseCount), MEMBER(cellLevel)});
 }
 
 TEST(SharedLayout, LightIsTheSameInBothLanguages) {

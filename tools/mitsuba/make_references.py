@@ -54,7 +54,7 @@ SCENES = {
     "empty_environment": Scene(SCENES_FOLDER / "empty_environment.xml", 1024, 32),
     "empty_noon_grass": Scene(SCENES_FOLDER / "empty_environment.xml", 1024, 32,
                               {"map": str(MAPS / "noon_grass_1k.hdr")}),
-    "mesh_under_sky": Scene(REFERENCES / "mesh_under_sky.xml", 512, 32),
+    "bunny_under_sky": Scene(SCENES_FOLDER / "bunny_under_sky.xml", 512, 32),
     "environment_floor": Scene(REFERENCES / "environment_floor.xml", 256, 32),
     "homo_null_envmap": Scene(MITSUBA_TESTS / "test_homo_null_envmap_volpath.xml", 64, 32),
     "hetero_sigmat_envmap": Scene(MITSUBA_TESTS / "test_hetero_sigmat_volpath.xml", 64, 32),

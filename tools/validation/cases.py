@@ -111,6 +111,13 @@ def benchmark(name, title, samples, tolerance, seconds, **more):
                      mitsuba(name), samples, NOISE_ALONE + AGREE + mean_within(tolerance), seconds, **more)
 
 
+def mitsuba_scene(name, file, text):
+    """One of Mitsuba's own test scenes; their constant-light variants are in tests/references."""
+    return ImageCase(f"mitsuba-{name.replace('_', '-')}-envmap", f"Mitsuba's test scene {name}, its own sky", text,
+                     SHARED / "data" / "mitsuba" / "tests" / "scenes" / "participating_media" / file,
+                     mitsuba(f"{name}_envmap"), 512, NOISE_ALONE + AGREE + mean_within(0.003), 15)
+
+
 CHECKERBOARD = Figures(5.03e-5, 4.32e-3, 6.34e-2)
 FIRST_SKY = Figures(1.69e-5, 2.06e-3, 7.16e-1)
 SECOND_SKY = Figures(2.66e-6, 7.42e-4, 3.17e-1)

@@ -2,10 +2,9 @@
 
 from cases import (AGREE, CHECKERBOARD, CORNELL, FIRST_SKY, GRADIENT, LIT_MESH, NOISE_ALONE, REFERENCES, SCENES,
                    SECOND_SKY, SHARED, ImageCase, SweepCase, TestCase, at_most, benchmark, better_than, exact,
-                   mean_within, mitsuba)
+                   mean_within, mitsuba, mitsuba_scene)
 
 MAPS = SHARED / "data" / "environments"
-MITSUBA_TESTS = SHARED / "data" / "mitsuba" / "tests" / "scenes" / "participating_media"
 
 BASELINE_IMAGES = (
     ImageCase(
@@ -32,7 +31,7 @@ BASELINE_IMAGES = (
     ImageCase(
         "lit-mesh", "Mesh under the generated sky", "A diffuse knot on a textured floor: mesh normals, map sampling, "
         "multiple importance sampling. Against Mitsuba.",
-        REFERENCES / "mesh_under_sky.xml", mitsuba("mesh_under_sky"), 4096,
+        SCENES / "bunny_under_sky.xml", mitsuba("bunny_under_sky"), 4096,
         better_than(LIT_MESH) + NOISE_ALONE + AGREE + mean_within(0.001), 25, baseline=LIT_MESH,
         files=(SCENES / "environments" / "afternoon.hdr",)),
     ImageCase(
@@ -85,6 +84,10 @@ FURTHER = (
         "mitsuba-homo-null", "Mitsuba's test scene homo_null", "Homogeneous media with index-matched boundaries, in "
         "constant light.",
         REFERENCES / "homo_null.xml", mitsuba("homo_null"), 512, NOISE_ALONE + AGREE + mean_within(0.003), 10),
+    mitsuba_scene("hetero_sigmat", "test_hetero_sigmat_volpath.xml",
+                  "A grid of extinction per colour channel under an environment map, unchanged."),
+    mitsuba_scene("homo_null", "test_homo_null_envmap_volpath.xml",
+                  "Index-matched boundaries under an environment map, unchanged."),
     benchmark("wdas_sun_sky", "Disney cloud under sun and sky", 1024, 0.003, 40),
     benchmark("cornell_cloud", "Smoke in a Cornell box", 1536, 0.003, 60),
     benchmark("fog_small_light", "Thin fog around a small light", 8192, 0.04, 30,
