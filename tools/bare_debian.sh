@@ -3,7 +3,7 @@
 #
 # Makes one with debootstrap in a temporary folder, copies the checkout into it (and ../shared, when it is
 # there), runs tools/render and tools/test in it, says how long each took, and leaves the picture in the
-# current folder as bare_cloud_box.png. Needs root. The packages come from where this machine's apt gets them.
+# current folder as bare_final_cloud.png. Needs root. The packages come from where this machine's apt gets them.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -83,7 +83,7 @@ timed "bare Debian 12" debootstrap --variant=minbase bookworm "$bare" "$mirror" 
 copyAptConfiguration
 copyCheckout
 timed "tools/render (installs, builds, renders)" inBare bash -c 'cd /src && bash parhelion/tools/render' || status=$?
-[ -f "$bare/src/cloud_box.png" ] && cp "$bare/src/cloud_box.png" bare_cloud_box.png && echo "picture: $PWD/bare_cloud_box.png"
+[ -f "$bare/src/final_cloud.png" ] && cp "$bare/src/final_cloud.png" bare_final_cloud.png && echo "picture: $PWD/bare_final_cloud.png"
 timed "tools/test" inBare bash /src/parhelion/tools/test "$@" || status=$?
 printf '%s\n' "${times[@]}"
 exit "$status"

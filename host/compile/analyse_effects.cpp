@@ -155,8 +155,9 @@ private:
         decide(Effect::hasStars, surrounding == shared::kLightSky && constants_.sky.starCount > 0,
                countOf(constants_.sky.starCount, "star", "stars"), "no star");
         decide(Effect::hasEnvironment, environment, "an emitter surrounds the scene", "no emitter surrounds the scene");
-        decide(Effect::hasEnvironmentSampling, environmentSampled, "it is sampled like other lights",
-               environment ? "scattering finds an environment of low contrast as well" : "no emitter surrounds the scene");
+        decide(
+            Effect::hasEnvironmentSampling, environmentSampled, "it is sampled like other lights",
+            environment ? "scattering finds an environment of low contrast as well" : "no emitter surrounds the scene");
         decide(Effect::hasDeltaLights, delta > 0,
                countOf(delta, "directional or point light", "directional and point lights"),
                "no directional or point light");

@@ -22,8 +22,8 @@ bool isUniform(const SkyDescription& sky);
 /// @throws InputError if a value does not fit single precision.
 glm::dvec3 compileSky(const SkyDescription& sky, const SourceLocation& where, CompiledScene& scene);
 
-/// Mean square of the compiled sky's luminance over the square of its mean, 1 for a uniform one; not below it. It is the
-/// second moment of what scattering finds where it is isotropic and nothing is in the way.
+/// Mean square of the compiled sky's luminance over the square of its mean, 1 for a uniform one; not below it. It is
+/// the second moment of what scattering finds where it is isotropic and nothing is in the way.
 double skyContrast(const SkyDescription& sky, const CompiledScene& scene);
 
 }  // namespace parhelion
