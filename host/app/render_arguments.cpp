@@ -44,9 +44,9 @@ void addDeviceOptions(CLI::App& command, RenderArguments& arguments) {
                                       "what renders (default vulkan); the reference is plain C++ on the CPU");
     command.add_option("--device", arguments.device, "part of a device's name, or its number: see parhelion devices")
         ->type_name("NAME");
-    addChoiceOption<std::optional<unsigned>, unsigned>(command, "--vector-bits", arguments.vectorBits,
-                                                       {{"0", 0}, {"128", 128}, {"256", 256}, {"512", 512}},
-                                                       "vector width of the software device (default 0: the widest)");
+    addChoiceOption<std::optional<unsigned>, unsigned>(
+        command, "--vector-bits", arguments.vectorBits, {{"0", 0}, {"128", 128}, {"256", 256}, {"512", 512}},
+        "vector width of the software device (default 0: the widest, 256 with meshes)");
     addChoiceOption<std::optional<bool>, bool>(
         command, "--effects", arguments.allEffects, {{"scene", false}, {"all", true}},
         "simulate the scene's effects, or keep the code of all (same image, slower)");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -103,11 +104,16 @@ RenderSettings chooseSettings(const RenderArguments& arguments, const CompiledSc
     return settings;
 }
 
-/// Opens the device, if one is to render. @throws InputError for a name that fits none.
-std::unique_ptr<gpu::Device> openDevice(const RenderArguments& arguments) {
+/// Opens the device, if one is to render. The more lanes a vector has, the longer they wait for each other in a mesh's
+/// BVH: 8 are faster than 16 there (by a third on a lit bunny, by a fifth on a cloud among arches).
+/// @throws InputError for a name that fits none.
+std::unique_ptr<gpu::Device> openDevice(const RenderArguments& arguments, const SceneDescription& description) {
     if (arguments.backend != Backend::Vulkan) return nullptr;
-    return std::make_unique<gpu::Device>(
-        gpu::DeviceOptions{.name = arguments.device, .vectorBits = arguments.vectorBits.value_or(0)});
+    const bool hasMesh = std::ranges::any_of(
+        description.shapes, [](const ShapeDescription& shape) { return shape.type == ShapeDescription::Type::Mesh; });
+    return std::make_unique<gpu::Device>(gpu::DeviceOptions{.name = arguments.device,
+                                                            .vectorBits = arguments.vectorBits.value_or(0),
+                                                            .preferredVectorBits = hasMesh ? 256u : 512u});
 }
 
 std::vector<CloudBakeReport> bake(const RenderArguments& arguments, gpu::Device* device,
@@ -178,7 +184,7 @@ int runRenderCommand(const RenderArguments& arguments) {
     if (arguments.backend != Backend::Vulkan) refuseVulkanOptions(arguments);
     const OutputFiles files = prepareOutputs(arguments);
     SceneDescription description = readScene(arguments.scene);
-    const std::unique_ptr<gpu::Device> device = openDevice(arguments);
+    const std::unique_ptr<gpu::Device> device = openDevice(arguments, description);
     std::vector<CloudBakeReport> clouds = bake(arguments, device.get(), description);
     const CompiledScene scene = compile(arguments, description);
     requireMemory(scene.cropSize, scene.constants.depthLayers);

@@ -19,7 +19,7 @@ constexpr VkSubgroupFeatureFlags kSubgroupOperations = VK_SUBGROUP_FEATURE_BASIC
 
 /// The environment decides the software driver's width while the driver loads: before the instance exists.
 Instance::Drivers prepareDrivers(const DeviceOptions& options) {
-    configureSoftwareDriver(options.vectorBits);
+    configureSoftwareDriver(options.vectorBits, options.preferredVectorBits);
     return options.name.empty() ? Instance::Drivers::kSoftwareFirst : Instance::Drivers::kAll;
 }
 

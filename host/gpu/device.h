@@ -26,6 +26,7 @@ struct DeviceOptions {
     bool validation = false;  ///< Khronos validation layer; every message is kept in validationMessages()
     /// Software driver's vector width: 128, 256, 512; 0: the widest the CPU has. First Device of a process decides.
     unsigned vectorBits = 0;
+    unsigned preferredVectorBits = 512;  ///< the widest to take where vectorBits is 0
     /// Told of each validation message as well, those during the device's destruction included.
     std::function<void(const std::string&)> onValidationMessage = {};
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -34,10 +35,11 @@ unsigned widestVectorBits() {
     return 128;
 }
 
-void configureSoftwareDriver(unsigned vectorBits) {
+void configureSoftwareDriver(unsigned vectorBits, unsigned preferredBits) {
     if (vectorBits != 0 && vectorBits != 128 && vectorBits != 256 && vectorBits != 512)
         throw InputError(fmt::format("vector width must be 128, 256 or 512 bits (0: the widest); got {}", vectorBits));
-    ::setenv(kWidthVariable, std::to_string(vectorBits ? vectorBits : widestVectorBits()).c_str(), 0);
+    const unsigned chosen = vectorBits != 0 ? vectorBits : std::min(preferredBits, widestVectorBits());
+    ::setenv(kWidthVariable, std::to_string(chosen).c_str(), 0);
     const std::string width = std::getenv(kWidthVariable);
     if (vectorBits != 0 && width != std::to_string(vectorBits))
         throw InputError(
