@@ -115,7 +115,7 @@ def mitsuba_scene(name, file, text):
     """One of Mitsuba's own test scenes; their constant-light variants are in tests/references."""
     return ImageCase(f"mitsuba-{name.replace('_', '-')}-envmap", f"Mitsuba's test scene {name}, its own sky", text,
                      SHARED / "data" / "mitsuba" / "tests" / "scenes" / "participating_media" / file,
-                     mitsuba(f"{name}_envmap"), 512, NOISE_ALONE + AGREE + mean_within(0.003), 15)
+                     mitsuba(f"{name}_envmap"), 1536, NOISE_ALONE + AGREE + mean_within(0.003), 80)
 
 
 CHECKERBOARD = Figures(5.03e-5, 4.32e-3, 6.34e-2)

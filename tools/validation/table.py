@@ -16,7 +16,7 @@ BASELINE_IMAGES = (
     ImageCase(
         "generated-sky", "Empty scene, generated map", "Nothing but an environment map that the project makes itself. "
         "Against Mitsuba.",
-        SCENES / "empty_environment.xml", mitsuba("empty_environment"), 4096,
+        SCENES / "empty_environment.xml", mitsuba("empty_environment"), 16384,
         NOISE_ALONE + AGREE + mean_within(0.003), 3),
     ImageCase(
         "first-sky", "Empty scene, clear HDR sky", "A clear sky with the sun in it (Poly Haven), 1k. Against Mitsuba.",
@@ -31,7 +31,7 @@ BASELINE_IMAGES = (
     ImageCase(
         "lit-mesh", "Mesh under the generated sky", "A diffuse knot on a textured floor: mesh normals, map sampling, "
         "multiple importance sampling. Against Mitsuba.",
-        SCENES / "bunny_under_sky.xml", mitsuba("bunny_under_sky"), 4096,
+        SCENES / "bunny_under_sky.xml", mitsuba("bunny_under_sky"), 16384,
         better_than(LIT_MESH) + NOISE_ALONE + AGREE + mean_within(0.001), 25, baseline=LIT_MESH,
         files=(SCENES / "environments" / "afternoon.hdr",)),
     ImageCase(
@@ -70,7 +70,7 @@ FURTHER = (
     ImageCase(
         "furnace", "White furnace", "A cloud that absorbs nothing in a uniform sky: 1 in every pixel. Light is "
         "sampled at every vertex, so that the noise shows.",
-        SCENES / "white_furnace.xml", exact.constant(1.0), 128, NOISE_ALONE + AGREE + mean_within(0.001), 10,
+        SCENES / "white_furnace.xml", exact.constant(1.0), 1024, NOISE_ALONE + AGREE + mean_within(0.001), 10,
         options=("--nee", "all", "--sampler", "independent")),
     ImageCase(
         "furnace-exact", "White furnace, no light sampling", "The same, by scattering alone: no noise, so that "
@@ -79,17 +79,17 @@ FURTHER = (
     ImageCase(
         "mitsuba-hetero-sigmat", "Mitsuba's test scene hetero_sigmat", "A grid of extinction per colour channel, in "
         "constant light.",
-        REFERENCES / "hetero_sigmat.xml", mitsuba("hetero_sigmat"), 512, NOISE_ALONE + AGREE + mean_within(0.003), 15),
+        REFERENCES / "hetero_sigmat.xml", mitsuba("hetero_sigmat"), 1536, NOISE_ALONE + AGREE + mean_within(0.003), 15),
     ImageCase(
         "mitsuba-homo-null", "Mitsuba's test scene homo_null", "Homogeneous media with index-matched boundaries, in "
         "constant light.",
-        REFERENCES / "homo_null.xml", mitsuba("homo_null"), 512, NOISE_ALONE + AGREE + mean_within(0.003), 10),
+        REFERENCES / "homo_null.xml", mitsuba("homo_null"), 1536, NOISE_ALONE + AGREE + mean_within(0.003), 10),
     mitsuba_scene("hetero_sigmat", "test_hetero_sigmat_volpath.xml",
                   "A grid of extinction per colour channel under an environment map, unchanged."),
     mitsuba_scene("homo_null", "test_homo_null_envmap_volpath.xml",
                   "Index-matched boundaries under an environment map, unchanged."),
-    benchmark("wdas_sun_sky", "Disney cloud under sun and sky", 1024, 0.003, 40),
-    benchmark("cornell_cloud", "Smoke in a Cornell box", 1536, 0.003, 60),
+    benchmark("wdas_sun_sky", "Disney cloud under sun and sky", 4096, 0.003, 30),
+    benchmark("cornell_cloud", "Smoke in a Cornell box", 6144, 0.003, 55),
     benchmark("fog_small_light", "Thin fog around a small light", 8192, 0.04, 30,
               text="Its rare bright samples leave more noise than elsewhere."),
     benchmark("furnace", "Ball that absorbs nothing", 256, 0.003, 10,
