@@ -32,7 +32,7 @@ BASELINE_IMAGES = (
         "lit-mesh", "Mesh under the generated sky", "A diffuse knot on a textured floor: mesh normals, map sampling, "
         "multiple importance sampling. Against Mitsuba.",
         SCENES / "bunny_under_sky.xml", mitsuba("bunny_under_sky"), 16384,
-        better_than(LIT_MESH) + NOISE_ALONE + AGREE + mean_within(0.001), 25, baseline=LIT_MESH,
+        better_than(LIT_MESH) + NOISE_ALONE + AGREE + mean_within(0.001), 110, baseline=LIT_MESH,
         files=(SCENES / "environments" / "afternoon.hdr",)),
     ImageCase(
         "lit-bunny", "Stanford bunny under an HDR sky", "70 k triangles on a checkerboard, the sun in the map. Against "
