@@ -13,17 +13,18 @@ from check_mirror import SHADER_ONLY, modules, names
 from source_text import files, report, repository
 
 WHOLE_PATHS = {"integrator/path_tracer", "integrator/vertex", "integrator/emission"}
-# `Parity a("module", "functions"` and what follows it in the same declaration, `, b("module", "functions"`.
-RECORD = re.compile(r'\bParity\s+\w+\(\s*"([^"]+)",\s*"([^"]+)"|,\s*\w+\(\s*"([\w/]+)",\s*"([^"]+)"')
+# `Parity a("module", "functions"` and what follows in the same declaration, `, b("module", "functions"`. The functions
+# may be a choice, `condition ? "these" : "those"`.
+RECORD = re.compile(r'(?:\bParity\s+\w+|,\s*\w+)\(\s*"([\w/]+)",\s*([^",;]*"[^,;]*"),')
+STRING = re.compile(r'"([^"]*)"')
 
 
 def records(folder):
     """{(module, function)} of every record."""
     found = set()
     for file in files(folder, ".cpp"):
-        for first in RECORD.finditer(file.read_text()):
-            module, functions = first.group(1) or first.group(3), first.group(2) or first.group(4)
-            found |= {(module, function) for function in functions.split()}
+        for module, choice in RECORD.findall(file.read_text()):
+            found |= {(module, function) for functions in STRING.findall(choice) for function in functions.split()}
     return found
 
 

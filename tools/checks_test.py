@@ -1,6 +1,7 @@
 """Each structure check accepts a small sound tree and finds a violation seeded into it."""
 
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -51,6 +52,15 @@ Real samplePhase(Real u) { return u; }
 """
 
 
+PARITY = """TEST(Phase, Agrees) {
+    Parity value("volume/phase", "evalPhase", 7),
+        sample("volume/phase", "samplePhase", 9);
+}
+"""
+
+PYTHON_CHECKS = ("check_floors.py", "check_mirror.py", "check_parity_coverage.py", "check_sizes.py")
+
+
 class Checks(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -60,6 +70,9 @@ class Checks(unittest.TestCase):
         self.write("host/reference/volume/phase.h", TWIN)
         self.write("host/base/math.h", "#pragma once\n#include <cmath>\n")
         self.write("host/gpu/device.cpp", '#include <volk.h>\n#include "base/math.h"\n')
+        self.write("tests/parity/phase_test.cpp", PARITY)
+        self.write("tools/make.cpp", "int main() {}\n")
+        self.write(".clang-format", "BasedOnStyle: Google\n")
 
     def write(self, name, text):
         file = self.root / name
@@ -76,9 +89,51 @@ class Checks(unittest.TestCase):
             self.assertIn(word, result.stdout)
 
     def test_sound_tree_passes(self):
-        for name in ("check_floors.py", "check_mirror.py", "check_sizes.py"):
+        for name in PYTHON_CHECKS:
             result = self.run_check(name)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_nothing_to_check_is_no_pass(self):
+        for folder in ("host", "tests", "shaders"):
+            shutil.rmtree(self.root / folder)
+        for name in PYTHON_CHECKS:
+            result = self.run_check(name)
+            self.assertEqual(result.returncode, 1, name)
+            self.assertIn("missing", result.stderr)
+
+    def test_parity_coverage_finds_a_function_without_a_record(self):
+        self.write("tests/parity/phase_test.cpp", PARITY.replace("samplePhase", "sampleLobe"))
+        self.assert_finds("check_parity_coverage.py", "shaders/volume/phase.glsl", "no parity record", "samplePhase")
+
+    def test_parity_coverage_reads_choices(self):
+        self.write("tests/parity/phase_test.cpp", PARITY.replace('"evalPhase"', 'isEven() ? "other" : "evalPhase"'))
+        self.assertEqual(self.run_check("check_parity_coverage.py").returncode, 0)
+
+    def test_parity_coverage_tells_modules_apart(self):
+        self.write("shaders/light/sky.glsl", "float evalPhase(float mu) { return mu; }\n")
+        self.assert_finds("check_parity_coverage.py", "shaders/light/sky.glsl: no parity record", "evalPhase")
+
+    def run_style(self):
+        result = subprocess.run(["bash", TOOLS / "check_style.sh", self.root], capture_output=True, text=True)
+        if result.returncode == 77:
+            self.skipTest("clang-format is not installed")
+        return result
+
+    def test_style_finds_what_clang_format_would_change(self):
+        for name, text in (("host/base/math.h", "#pragma once\n"), ("host/gpu/device.cpp", "int f();\n"),
+                           ("host/reference/volume/phase.h", "#pragma once\n"),
+                           ("tests/parity/phase_test.cpp", "int g();\n")):
+            self.write(name, text)
+        result = self.run_style()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.write("tools/make.cpp", "int  main( ) {}\n")
+        result = self.run_style()
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("tools/make.cpp:1", result.stderr)
+
+    def test_style_without_a_folder_is_no_pass(self):
+        shutil.rmtree(self.root / "tests")
+        self.assertNotEqual(self.run_style().returncode, 0)
 
     def test_floors_finds_an_include_of_a_floor_above(self):
         self.write("host/base/text.h", '#include "reference/volume/phase.h"\n')

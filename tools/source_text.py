@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import sys
 from dataclasses import dataclass
 
 
@@ -19,6 +20,9 @@ def repository(arguments):
 
 
 def files(folder, *suffixes):
+    """Of that kind below a folder, which must exist: a check that finds nothing to look at has not checked."""
+    if not folder.is_dir():
+        sys.exit(f"{folder}: missing")
     return sorted(path for path in folder.rglob("*") if path.suffix in suffixes and path.is_file())
 
 

@@ -11,6 +11,8 @@
 #include "analysis/compare.h"
 #include "app/exit_codes.h"
 #include "app/interrupt.h"
+#include "app/output_check.h"
+#include "app/text_format.h"
 #include "base/files.h"
 
 namespace parhelion::app {
@@ -174,12 +176,22 @@ struct ErrorFiles {
     fs::path exr, png;
 };
 
+std::vector<fs::path> inputsOf(const CompareArguments& arguments) { return {arguments.imageA, arguments.imageB}; }
+
 ErrorFiles prepareErrorFiles(const CompareArguments& arguments) {
     ErrorFiles files{arguments.error, fs::path(arguments.error).replace_extension(".png")};
     if (files.exr.extension() != ".exr")
         throw InputError(fmt::format("--error: expected a name that ends in .exr; got {}", arguments.error));
-    for (const fs::path& file : {files.exr, files.png}) AtomicFile probe(file);
+    for (const fs::path& file : {files.exr, files.png}) {
+        refuseReplacing(inputsOf(arguments), file, "--error");
+        AtomicFile probe(file);
+    }
     return files;
+}
+
+void checkPictures(const CompareArguments& arguments) {
+    for (const char* suffix : {"_a.png", "_b.png", "_error.png", "_z.png"})
+        refuseReplacing(inputsOf(arguments), arguments.pictures + suffix, "--pictures");
 }
 
 }  // namespace
@@ -188,6 +200,7 @@ int runCompareCommand(const CompareArguments& arguments) {
     Interruption interruption;
     std::optional<ErrorFiles> files;
     if (!arguments.error.empty()) files = prepareErrorFiles(arguments);
+    if (!arguments.pictures.empty()) checkPictures(arguments);
     const Image a = readExr(arguments.imageA), b = readExr(arguments.imageB);
     const ImageComparison comparison = compareImages(a, b);
     if (files) {
@@ -204,7 +217,7 @@ int runCompareCommand(const CompareArguments& arguments) {
     bool passed = true;
     for (const Verdict& verdict : verdicts) passed = passed && verdict.passed();
     if (arguments.json) {
-        fmt::print("{}\n", toJson(comparison, verdicts).dump(2));
+        printJson(toJson(comparison, verdicts));
         return passed ? kExitSuccess : kExitFailed;
     }
     fmt::print("{}", describe(comparison));

@@ -8,6 +8,7 @@
 #include "app/exit_codes.h"
 #include "app/interrupt.h"
 #include "app/options.h"
+#include "app/output_check.h"
 #include "app/text_format.h"
 #include "base/files.h"
 
@@ -57,6 +58,8 @@ CLI::App* addConvertCommand(CLI::App& program, ConvertArguments& arguments) {
 
 int runConvertCommand(const ConvertArguments& arguments) {
     Interruption interruption;
+    const std::filesystem::path input = arguments.input;
+    refuseReplacing({&input, 1}, arguments.output, "OUT");
     { const AtomicFile probe(arguments.output); }
     const Volume volume = readVolume(arguments.input, {.file = arguments.input},
                                      {.gridName = arguments.grid, .gridNameWhere = {"--grid"}});

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/exit_codes.h"
+#include "app/text_format.h"
 #include "gpu/device.h"
 
 namespace parhelion::app {
@@ -28,7 +29,7 @@ int runDevicesCommand(const DevicesArguments& arguments) {
                             {"driver", device.driver},
                             {"type", device.type},
                             {"software", device.software}});
-        fmt::print("{}\n", json.dump(2));
+        printJson(json);
         return kExitSuccess;
     }
     for (std::size_t i = 0; i < devices.size(); ++i)

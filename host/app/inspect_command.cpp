@@ -7,6 +7,7 @@
 #include "app/cloud_reports.h"
 #include "app/exit_codes.h"
 #include "app/scene_inventory.h"
+#include "app/text_format.h"
 #include "compile/compile_scene.h"
 
 namespace parhelion::app {
@@ -34,7 +35,7 @@ int runInspectCommand(const InspectArguments& arguments) {
     if (arguments.json) {
         nlohmann::ordered_json json = toJson(inventory);
         json["clouds"] = toJson(clouds);
-        fmt::print("{}\n", json.dump(2));
+        printJson(json);
     } else {
         fmt::print("{}{}", describe(clouds), describe(inventory));
     }

@@ -28,7 +28,7 @@ void addImageOptions(CLI::App& command, RenderArguments& arguments) {
                      "picks the random numbers (default: the scene's, 0)");
     addParsedOption(command, "--crop", arguments.crop, "X,Y,WxH", "render only these pixels of the film", parseCrop);
     addIntegerOption(command, "--max-depth", arguments.maxDepth, -1, 0x7fffffff,
-                     "scatterings a path may have, instead of the scene's; -1: unlimited");
+                     "longest path, in scatterings + 1, instead of the scene's; -1: unlimited");
     addIntegerOption(command, "--depth-layers", arguments.depthLayers, 0, IntegratorDescription::kMostDepthLayers,
                      "EXR layers depth0, depth1, ... by number of scatterings, the last for all above; 0: none");
     addIntegerOption(command, "--feature-spp", arguments.featureSamples, 0, 65536,

@@ -10,6 +10,7 @@
 #include "app/cloud_reports.h"
 #include "app/error_estimate.h"
 #include "app/exit_codes.h"
+#include "app/output_check.h"
 #include "app/render_backends.h"
 #include "app/render_report.h"
 #include "app/text_format.h"
@@ -39,6 +40,13 @@ OutputFiles prepareOutputs(const RenderArguments& arguments) {
     files.png = fs::path(files.exr).replace_extension(".png");
     for (const fs::path& file : {files.exr, files.png}) AtomicFile probe(file);
     return files;
+}
+
+/// Reads the scene, none of whose files may be an output.
+SceneDescription readSceneBeside(const OutputFiles& files, const RenderArguments& arguments) {
+    SceneDescription description = readScene(arguments.scene);
+    for (const fs::path& file : {files.exr, files.png}) refuseReplacing(description.files, file, "--output");
+    return description;
 }
 
 void refuseVulkanOptions(const RenderArguments& arguments) {
@@ -183,7 +191,7 @@ int runRenderCommand(const RenderArguments& arguments) {
     Interruption interruption;
     if (arguments.backend != Backend::Vulkan) refuseVulkanOptions(arguments);
     const OutputFiles files = prepareOutputs(arguments);
-    SceneDescription description = readScene(arguments.scene);
+    SceneDescription description = readSceneBeside(files, arguments);
     const std::unique_ptr<gpu::Device> device = openDevice(arguments, description);
     std::vector<CloudBakeReport> clouds = bake(arguments, device.get(), description);
     const CompiledScene scene = compile(arguments, description);
@@ -207,7 +215,7 @@ int runRenderCommand(const RenderArguments& arguments) {
         writePng(files.png, image, arguments.exposure);
     }
     if (arguments.json)
-        fmt::print("{}\n", toJson(report).dump(2));
+        printJson(toJson(report));
     else if (!arguments.quiet)
         fmt::print("{}", describe(report));
     return judge(arguments, report);

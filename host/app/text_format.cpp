@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <span>
 
 namespace parhelion::app {
@@ -22,6 +23,10 @@ std::string scaled(double value, double base, std::span<const char* const> units
 }
 
 }  // namespace
+
+void printJson(const nlohmann::ordered_json& json) {
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
 
 std::string formatCount(double count) {
     static constexpr std::array kUnits{"", " k", " M", " G", " T"};

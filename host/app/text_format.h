@@ -1,9 +1,13 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace parhelion::app {
+
+/// Prints to standard output. Bytes that are no UTF-8, which names of files may have, become replacement characters.
+void printJson(const nlohmann::ordered_json& json);
 
 /// "950", "12.3 k", "4.56 M", "7.89 G": three significant digits.
 std::string formatCount(double count);

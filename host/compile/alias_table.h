@@ -18,9 +18,8 @@ struct AliasTable {
     std::vector<double> probabilities;  ///< of each outcome, as the 2^32 words give them: multiples of 2^-32
 };
 
-/// @param weights  finite, >= 0, not all 0; 1 to 2^20 of them. A weight of 0 has probability 0; one below about 2^-32
-/// of
-///                 the sum may get 0 too.
+/// @param weights  finite, >= 0, not all 0; fewer than 2^32. A weight of 0 has probability 0; one below about 2^-32 of
+///                 the sum may get 0 too, and the steps of 2^-32 show where there are very many.
 AliasTable buildAliasTable(std::span<const double> weights);
 
 }  // namespace parhelion

@@ -21,7 +21,8 @@ public:
         decide(Effect::hasDepthLimit, constants_.maxDepth != shared::kNone,
                fmt::format("paths end after depth {}", constants_.maxDepth), "paths end by roulette alone");
         decide(Effect::hasFilterTable, !scene_.filterTable.empty(),
-               fmt::format("the reconstruction filter reaches {} pixels", constants_.camera.filterRadius),
+               fmt::format("the reconstruction filter reaches {} pixels",
+                           scene_.filterTable.empty() ? 0.5f : -scene_.filterTable.front()),
                "the reconstruction filter is the pixel's box");
         decide(Effect::hasDepthLayers, constants_.depthLayers > 0,
                countOf(constants_.depthLayers, "layer", "layers") + " by number of scatterings",
@@ -155,9 +156,10 @@ private:
         decide(Effect::hasStars, surrounding == shared::kLightSky && constants_.sky.starCount > 0,
                countOf(constants_.sky.starCount, "star", "stars"), "no star");
         decide(Effect::hasEnvironment, environment, "an emitter surrounds the scene", "no emitter surrounds the scene");
-        decide(
-            Effect::hasEnvironmentSampling, environmentSampled, "it is sampled like other lights",
-            environment ? "scattering finds an environment of low contrast as well" : "no emitter surrounds the scene");
+        decide(Effect::hasEnvironmentSampling, environmentSampled, "it is sampled like other lights",
+               !environment                     ? "no emitter surrounds the scene"
+               : constants_.emitterSamples == 0 ? "light sampling takes no samples"
+                                                : "scattering finds an environment of low contrast as well");
         decide(Effect::hasDeltaLights, delta > 0,
                countOf(delta, "directional or point light", "directional and point lights"),
                "no directional or point light");

@@ -35,6 +35,24 @@ void requireRigid(const CameraDescription& camera) {
 
 }  // namespace
 
+double horizontalFov(double fovDegrees, FovAxis axis, double aspect) {
+    const double tangent = std::tan(glm::radians(fovDegrees) / 2.0);
+    const auto fromTangent = [](double t) { return glm::degrees(2.0 * std::atan(t)); };
+    switch (axis) {
+        case FovAxis::X:
+            return fovDegrees;
+        case FovAxis::Y:
+            return fromTangent(tangent * aspect);
+        case FovAxis::Diagonal:
+            return fromTangent(tangent / std::sqrt(1.0 + 1.0 / (aspect * aspect)));
+        case FovAxis::Smaller:
+            return horizontalFov(fovDegrees, aspect > 1.0 ? FovAxis::Y : FovAxis::X, aspect);
+        case FovAxis::Larger:
+            return horizontalFov(fovDegrees, aspect > 1.0 ? FovAxis::X : FovAxis::Y, aspect);
+    }
+    return fovDegrees;
+}
+
 void compileFilm(const SceneDescription& description, const CompileOptions& options, CompiledScene& scene) {
     const FilmDescription& film = description.film;
     const glm::uvec2 size = options.size.value_or(film.size);
@@ -63,18 +81,23 @@ void compileFilm(const SceneDescription& description, const CompileOptions& opti
     scene.filmSize = size;
     scene.cropOffset = offset;
     scene.cropSize = crop;
+    // The scene's own crop is a film of its own, as in Mitsuba; one asked for shows a part of the same picture.
+    shared::Camera& camera = scene.constants.camera;
+    camera.filmLower = fromOptions ? glm::uvec2(0) : offset;
+    camera.filmUpper = fromOptions ? size : offset + crop;
 }
 
 void compileCamera(const SceneDescription& description, CompiledScene& scene) {
     const CameraDescription& camera = description.camera;
     requireRigid(camera);
-    if (!(camera.fovXDegrees > 0.0 && camera.fovXDegrees < 180.0))
+    if (!(camera.fovDegrees > 0.0 && camera.fovDegrees < 180.0))
         throw InputError(camera.where,
-                         fmt::format("sensor: fov must be in (0, 180) degrees; got {}", camera.fovXDegrees));
+                         fmt::format("sensor: fov must be in (0, 180) degrees; got {}", camera.fovDegrees));
 
     const glm::dmat3 toWorld(camera.toWorld);
     const glm::dvec2 size(scene.filmSize);
-    const double halfWidth = std::tan(camera.fovXDegrees * std::numbers::pi / 360.0);
+    const double fovX = horizontalFov(camera.fovDegrees, camera.fovAxis, size.x / size.y);
+    const double halfWidth = std::tan(fovX * std::numbers::pi / 360.0);
     const double halfHeight = halfWidth * size.y / size.x;
     const glm::dvec2 corner = 1.0 - 2.0 * camera.principalPointOffset;
     const glm::dvec3 forward(corner.x * halfWidth, corner.y * halfHeight, 1.0);
@@ -83,10 +106,11 @@ void compileCamera(const SceneDescription& description, CompiledScene& scene) {
     record.forward = toFloat(toWorld * forward, camera.where, "sensor: film corner");
     record.dx = toFloat(toWorld[0] * (-2.0 * halfWidth / size.x), camera.where, "sensor: pixel width");
     record.dy = toFloat(toWorld[1] * (-2.0 * halfHeight / size.y), camera.where, "sensor: pixel height");
-    record.filterRadius = float(description.film.filterRadius);
     record.inside = shared::kNone;
     scene.worldOrigin = glm::dvec3(camera.toWorld[3]);
     scene.filterTable = reconstructionTable(description.film);
+    record.hasFilter = scene.filterTable.empty() ? 0u : 1u;
+    record.filterEdges = record.hasFilter ? std::uint32_t(scene.filterTable.size()) - shared::kFilterSteps - 1u : 0u;
 }
 
 }  // namespace parhelion

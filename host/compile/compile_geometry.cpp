@@ -45,11 +45,12 @@ std::vector<bool> chooseTriangles(std::span<const KeptShape> shapes) {
     return asTriangles;
 }
 
-/// Mitsuba's spheres and cubes turn inside out under a mirroring transform; medium boundaries have no such side.
+/// Mitsuba's spheres turn inside out under a mirroring transform, cubes do not; medium boundaries have no such side.
 /// Quads and triangles have their side in the data.
 std::uint32_t shapeFlags(const PlacedShape& shape, bool asTriangles) {
     if (shape.isNull()) return shared::kShapeNull;
-    const bool flips = shape.isAnalyticSolid() && !asTriangles && shape.source->flipNormals != shape.mirrored;
+    const bool turned = shape.kind == PlacedShape::Kind::Sphere && shape.mirrored;
+    const bool flips = shape.isAnalyticSolid() && !asTriangles && shape.source->flipNormals != turned;
     return (shape.source->bsdf.twoSided ? shared::kShapeTwoSided : 0u) | (flips ? shared::kShapeFlipNormal : 0u);
 }
 
@@ -79,7 +80,7 @@ shared::Quad makeQuad(const PlacedShape& shape, std::uint32_t index) {
     quad.edgeU = toFloat(u, where, name + ": edge");
     quad.edgeV = toFloat(v, where, name + ": edge");
     quad.area = toFloat(glm::dvec3(area), where, name + ": area").x;
-    quad.normal = glm::vec3(n / (shape.source->flipNormals ? -area : area));
+    quad.normal = glm::vec3(n / (shape.source->flipNormals != shape.mirrored ? -area : area));
     quad.uFromWorld = toFloat(glm::cross(v, n) / (area * area), where, name + ": inverse edge");
     quad.vFromWorld = toFloat(glm::cross(n, u) / (area * area), where, name + ": inverse edge");
     quad.shape = index;

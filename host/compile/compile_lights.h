@@ -12,10 +12,10 @@ namespace parhelion {
 ///
 /// A light is selected with probability 0.5 / n + 0.5 * its share of the power of all n sampled lights, in multiples of
 /// 2^-24: exactly what comparing a 24-bit uniform with `cumulative` gives. Black lights are dropped with a note.
-/// The constant environment is sampled only if `sampleEveryLight` or if scattering takes no samples; a sphere that
-/// emits inwards never is. If light sampling takes no samples, no light is sampled, and delta lights are dropped with a
-/// note.
-/// @throws InputError for more than one constant emitter or more than kMaxLights lights.
+/// A constant environment, and a sky whose mean square luminance is at most twice its squared mean, are sampled only if
+/// `sampleEveryLight` or if scattering takes no samples; a sphere that emits inwards never is. If light sampling takes
+/// no samples, no light is sampled, and delta lights are dropped with a note.
+/// @throws InputError for more than one emitter around the scene or more than kMaxLights lights.
 void compileLights(const SceneDescription& description, std::span<const KeptShape> shapes,
                    std::span<const EmissiveGeometry> geometry, bool sampleEveryLight, CompiledScene& scene);
 

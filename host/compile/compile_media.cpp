@@ -146,7 +146,7 @@ struct LargestGrid {
     }
 };
 
-/// Before anything large is allocated. Grids with a value a channel are always dense.
+/// Before the scene's own tables are allocated. Grids with a value a channel are always dense.
 DensityPlan planStorage(std::span<const MediumDescription* const> media,
                         std::span<const std::optional<ExtinctionGrid>> extinctions, std::size_t memoryLimitBytes) {
     std::vector<const DensityGrid*> grids;

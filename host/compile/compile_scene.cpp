@@ -57,6 +57,7 @@ public:
           emptyMedia_(findEmptyMedia(description, scene.notes)),
           shapeIndex_(shapes.size(), shared::kNone),
           mediumIndex_(description.media.size(), shared::kNone) {
+        checkCameraMedium(description, shapes, nesting_);
         ignoreMediaOfSurfaceIntegrator(description, scene);
         for (std::size_t i = 0; i < shapes.size(); ++i)
             if (isKept(i)) shapeIndex_[i] = count_++;

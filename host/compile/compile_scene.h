@@ -12,7 +12,7 @@ struct CompileOptions {
     std::optional<glm::uvec2> cropOffset, cropSize;
     std::optional<std::int64_t> maxDepth;  ///< --max-depth
     std::optional<unsigned> depthLayers;   ///< --depth-layers
-    bool sampleEveryLight = false;         ///< next-event estimation for the constant environment too
+    bool sampleEveryLight = false;         ///< next-event estimation for environments of low contrast too
     std::size_t memoryLimitBytes = 0;      ///< refuse larger scenes; 0: half of the machine's memory
 };
 

@@ -139,7 +139,6 @@ void compileTextures(const SceneDescription& description, std::span<KeptShape> s
         if (shape.radianceTexture) kept.radiance = textures.add(*shape.radianceTexture);
         if (kept.isTextured()) noteMissingUvs(shape, scene);
     }
-    scene.constants.textureCount = std::uint32_t(scene.textures.size());
 }
 
 }  // namespace parhelion

@@ -128,4 +128,17 @@ Nesting resolveNesting(std::span<const PlacedShape> shapes, std::span<const Medi
     return NestingResolver(shapes, media).resolve();
 }
 
+void checkCameraMedium(const SceneDescription& description, std::span<const PlacedShape> shapes,
+                       const Nesting& nesting) {
+    const CameraDescription& camera = description.camera;
+    if (!camera.medium) return;
+    const std::optional<std::size_t> around = nesting.camera ? shapes[*nesting.camera].source->interior : std::nullopt;
+    if (around == camera.medium) return;
+    throw InputError(camera.mediumWhere,
+                     fmt::format("the sensor's medium must be the one around it, {}{}; got {}",
+                                 nameOfMedium(description.media, around),
+                                 nesting.camera ? " of " + nameAndPlace(shapes[*nesting.camera]) : std::string(),
+                                 nameOfMedium(description.media, camera.medium)));
+}
+
 }  // namespace parhelion

@@ -25,4 +25,8 @@ struct Nesting {
 ///         does not name the one around it, and for an `exterior` that no enclosing shape provides.
 Nesting resolveNesting(std::span<const PlacedShape> shapes, std::span<const MediumDescription> media);
 
+/// @throws InputError for a medium named by the sensor that is not the one `nesting` finds around it.
+void checkCameraMedium(const SceneDescription& description, std::span<const PlacedShape> shapes,
+                       const Nesting& nesting);
+
 }  // namespace parhelion

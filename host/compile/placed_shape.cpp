@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compile/transforms.h"
+#include "scene/transforms.h"
 
 namespace parhelion {
 
@@ -14,19 +15,13 @@ namespace {
 
 void placeSphere(PlacedShape& placed, const glm::dmat4& toScene) {
     const ShapeDescription& shape = *placed.source;
-    const glm::dmat3 m(toScene);
-    const glm::dmat3 gram = glm::transpose(m) * m;
-    const double scaleSquared = (gram[0][0] + gram[1][1] + gram[2][2]) / 3.0;
-    // Scene files write matrices in decimal, often with 6 or 7 digits.
-    constexpr double kTolerance = 1e-5;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            if (std::abs(gram[i][j] - (i == j ? scaleSquared : 0.0)) > kTolerance * scaleSquared)
-                throw InputError(shape.where, nameOf(shape) +
-                                                  ": to_world must scale every axis alike (a sphere stays "
-                                                  "a sphere); use a mesh for an ellipsoid");
+    const Similarity similarity = similarityOf(toScene);
+    if (!similarity.holds)
+        throw InputError(shape.where, nameOf(shape) +
+                                          ": to_world must scale every axis alike (a sphere stays "
+                                          "a sphere); use a mesh for an ellipsoid");
     placed.center = glm::dvec3(toScene * glm::dvec4(shape.center, 1.0));
-    placed.radius = shape.radius * std::sqrt(scaleSquared);
+    placed.radius = shape.radius * similarity.scale;
     if (!(placed.radius > 0.0))
         throw InputError(shape.where, fmt::format("{}: radius must be > 0; got {}", nameOf(shape), shape.radius));
     placed.volume = 4.0 / 3.0 * std::numbers::pi * placed.radius * placed.radius * placed.radius;

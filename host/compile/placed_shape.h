@@ -13,7 +13,7 @@ struct PlacedShape {
 
     const ShapeDescription* source = nullptr;
     Kind kind = Kind::Mesh;
-    glm::dmat4 toScene{1.0};            ///< local space -> scene space; spheres: unused
+    glm::dmat4 toScene{1.0};            ///< local space -> scene space
     bool mirrored = false;              ///< toScene turns right-handed axes into left-handed ones
     glm::dvec3 center{0.0};             ///< Kind::Sphere
     double radius = 0.0;                ///< Kind::Sphere

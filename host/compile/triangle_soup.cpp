@@ -56,13 +56,19 @@ std::vector<glm::vec3> shadingNormals(const PlacedShape& shape) {
 
 double areaOf(const TriangleVertices& triangle) { return 0.5 * glm::length(doubledNormal(triangle)); }
 
-void TriangleSoup::addTriangle(const TriangleVertices& triangle, const TriangleVertices& shading, const TriangleUvs& uv,
+void TriangleSoup::addTriangle(TriangleVertices triangle, TriangleVertices shading, TriangleUvs uv,
                                std::uint32_t shapeIndex) {
     if (isDegenerate(triangle)) {
         ++droppedCount;
         return;
     }
     const bool smooth = std::ranges::all_of(shading, [](const glm::vec3& n) { return n != glm::vec3(0.0f); });
+    // Vertex normals say which side is the front, whatever the winding: a mirroring transform turns that, not them.
+    if (smooth && glm::dot(doubledNormal(triangle), glm::dvec3(shading[0] + shading[1] + shading[2])) < 0.0) {
+        std::swap(triangle[1], triangle[2]);
+        std::swap(shading[1], shading[2]);
+        std::swap(uv[1], uv[2]);
+    }
     vertices.push_back(triangle);
     normals.push_back(smooth ? shading : TriangleVertices{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)});
     uvs.push_back(uv);
@@ -96,9 +102,8 @@ void TriangleSoup::addMesh(const PlacedShape& shape, std::uint32_t shapeIndex) {
 
 void TriangleSoup::addFlat(const PlacedShape& shape, std::uint32_t shapeIndex) {
     const bool isCube = shape.kind == PlacedShape::Kind::Box;
-    // Mirrored corners wind clockwise already. Mitsuba's rectangle and cube then face the other way, too.
-    const bool outwards = isCube && shape.isNull();
-    const bool reverse = outwards ? shape.mirrored : shape.source->flipNormals;
+    // Mirrored corners wind clockwise.
+    const bool reverse = (shape.source->flipNormals && !shape.isNull()) != shape.mirrored;
     const TriangleVertices flat{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
     for (int face = 0; face < (isCube ? 6 : 1); ++face) {
         std::array<glm::vec3, 4> corners;

@@ -20,13 +20,13 @@ struct TriangleSoup {
     bool hasNormals = false;
 
     /// Adds a mesh, or a rectangle or cube cut into triangles. flip_normals turns the winding and the normals.
-    /// A cube that bounds a medium faces outwards even under a mirroring transform.
+    /// Rectangles and cubes keep their side under a mirroring transform, a mesh turns over unless it has vertex normals
+    /// of its own: Mitsuba's rules.
     /// @throws InputError for vertices outside the range of float.
     void add(const PlacedShape& shape, std::uint32_t shapeIndex);
 
 private:
-    void addTriangle(const TriangleVertices& triangle, const TriangleVertices& shading, const TriangleUvs& uv,
-                     std::uint32_t shapeIndex);
+    void addTriangle(TriangleVertices triangle, TriangleVertices shading, TriangleUvs uv, std::uint32_t shapeIndex);
     void addMesh(const PlacedShape& shape, std::uint32_t shapeIndex);
     void addFlat(const PlacedShape& shape, std::uint32_t shapeIndex);
 };

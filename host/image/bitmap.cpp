@@ -11,6 +11,7 @@
 
 #include "base/files.h"
 #include "base/memory.h"
+#include "image/color_space.h"
 #include "image/image.h"
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -18,7 +19,7 @@
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_HDR
 #define STBI_NO_STDIO
-#define STBI_MAX_DIMENSIONS 65536
+#define STBI_MAX_DIMENSIONS int(parhelion::kMaxBitmapSize)
 #include <stb/stb_image.h>
 
 namespace parhelion {
@@ -30,17 +31,50 @@ bool isExr(const std::vector<std::byte>& content) {
     return content.size() >= kMagic.size() && std::memcmp(content.data(), kMagic.data(), kMagic.size()) == 0;
 }
 
+void requireDimensions(const std::filesystem::path& file, glm::uvec2 size) {
+    if (size.x > kMaxBitmapSize || size.y > kMaxBitmapSize)
+        throw InputError({file.string()}, fmt::format("a bitmap may have at most {} texels a side; got {} x {}",
+                                                      kMaxBitmapSize, size.x, size.y));
+}
+
+/// The channels that hold the colours, in the order in which they are looked for, as in Mitsuba.
+/// @throws InputError if there are none.
+std::array<std::string, 3> colourChannels(const std::filesystem::path& file, const Image& image) {
+    using Channels = std::array<std::string, 3>;
+    for (const Channels& channels : {Channels{"R", "G", "B"}, Channels{"X", "Y", "Z"}, Channels{"Y", "RY", "BY"}})
+        if (std::ranges::all_of(channels, [&image](const std::string& name) { return image.has(name); }))
+            return channels;
+    if (image.has("Y")) return {"Y", "Y", "Y"};
+    throw InputError({file.string()},
+                     "an EXR bitmap must have the channels R, G and B; X, Y and Z; Y, RY and BY; or Y");
+}
+
+/// Turns R, G and B of the file's primaries into Rec. 709.
+void convertPrimaries(const std::filesystem::path& file, const Chromaticities& space, Bitmap& bitmap) {
+    const glm::dmat3 matrix = rec709FromRgb(space);
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!std::isfinite(matrix[column][row]))
+                throw InputError({file.string()}, "\"chromaticities\" must span colours about a white");
+    if (matrix == glm::dmat3(1.0)) return;
+    for (glm::vec3& texel : bitmap.texels) texel = glm::vec3(matrix * glm::dvec3(texel));
+}
+
 Bitmap fromExr(const std::filesystem::path& file) {
     const Image image = readExr(file);
-    const std::array<std::string, 3> colour{"R", "G", "B"};
-    const bool isColour = image.has("R") && image.has("G") && image.has("B");
-    if (!isColour && !image.has("Y"))
-        throw InputError({file.string()}, "an EXR bitmap must have the channels R, G and B, or Y");
+    requireDimensions(file, image.size);
+    const std::array<std::string, 3> names = colourChannels(file, image);
     Bitmap bitmap{image.size, std::vector<glm::vec3>(std::size_t(image.size.x) * image.size.y)};
     for (int channel = 0; channel < 3; ++channel) {
-        const std::vector<float>& values = image.channels.at(isColour ? colour[channel] : "Y");
+        const std::vector<float>& values = image.channels.at(names[std::size_t(channel)]);
         for (std::size_t i = 0; i < values.size(); ++i) bitmap.texels[i][channel] = values[i];
     }
+    const Chromaticities space = image.chromaticities.value_or(kRec709);
+    if (names[0] == "X")
+        for (glm::vec3& texel : bitmap.texels) texel = glm::vec3(kRec709FromXyz * glm::dvec3(texel));
+    if (names[1] == "RY")
+        for (glm::vec3& texel : bitmap.texels) texel = glm::vec3(rgbFromChroma(texel.x, texel.y, texel.z, space));
+    if (names[0] == "R" || names[1] == "RY") convertPrimaries(file, space, bitmap);
     return bitmap;
 }
 
@@ -49,6 +83,7 @@ float fromSrgb(float value) { return value <= 0.04045f ? value / 12.92f : std::p
 
 /// @throws InputError before a damaged header makes the decoder ask for what the machine has not.
 void requireSize(const std::filesystem::path& file, int width, int height) {
+    requireDimensions(file, {unsigned(std::max(width, 0)), unsigned(std::max(height, 0))});
     if (width < 1 || height < 1)
         throw InputError({file.string()},
                          fmt::format("a bitmap must have at least one texel; got {} x {}", width, height));

@@ -25,12 +25,12 @@ enum class BitmapEncoding {
 /// Largest width and height of a bitmap.
 inline constexpr unsigned kMaxBitmapSize = 65536;
 
-/// Reads .exr, .hdr (Radiance), .png or .jpg, told apart by content. One channel is grey; alpha is ignored.
+/// Reads .exr, .hdr (Radiance), .png or .jpg, told apart by content. One channel is grey; alpha is ignored. An EXR may
+/// also hold X, Y and Z or Y, RY and BY; its R, G and B are converted from the primaries that it states.
 ///
 /// @param where  blamed for a missing file (the scene's location of the name); the file itself is blamed for damage.
-/// @throws InputError for a missing, truncated, damaged or too large file, and for channels that are neither R G B nor
-/// Y;
-///         naming the first texel that is negative or not finite.
+/// @throws InputError for a missing, truncated, damaged or too large file, for channels that are none of these and for
+///         primaries that span no colours; naming the first texel that is negative or not finite.
 Bitmap readBitmap(const std::filesystem::path& file, const SourceLocation& where,
                   BitmapEncoding encoding = BitmapEncoding::kSrgb);
 

@@ -7,6 +7,7 @@
 #include <ImfIntAttribute.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
@@ -77,10 +78,19 @@ std::map<std::string, Image::Attribute> readAttributes(const Imf::Header& header
     return result;
 }
 
+std::optional<Chromaticities> readChromaticities(const Imf::Header& header) {
+    if (!Imf::hasChromaticities(header)) return std::nullopt;
+    const Imf::Chromaticities& c = Imf::chromaticities(header);
+    return Chromaticities{{c.red.x, c.red.y}, {c.green.x, c.green.y}, {c.blue.x, c.blue.y}, {c.white.x, c.white.y}};
+}
+
 Image readPart(Imf::MultiPartInputFile& input) {
     const Imf::Header& header = input.header(0);
     const Imath::Box2i window = header.dataWindow();
-    Image image{.size = sizeOf(window), .channels = {}, .attributes = readAttributes(header)};
+    Image image{.size = sizeOf(window),
+                .channels = {},
+                .attributes = readAttributes(header),
+                .chromaticities = readChromaticities(header)};
     Imf::FrameBuffer target;
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         std::vector<float>& values = image.channels[channel.name()];

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -12,6 +13,11 @@
 
 namespace parhelion {
 
+/// Where red, green, blue and white lie in CIE 1931 xy.
+struct Chromaticities {
+    glm::dvec2 red, green, blue, white;
+};
+
 /// Named float channels of one size, row by row from the top, and typed attributes: what an EXR holds.
 struct Image {
     using Attribute = std::variant<std::string, double, std::int64_t>;
@@ -19,6 +25,7 @@ struct Image {
     glm::uvec2 size{0};
     std::map<std::string, std::vector<float>> channels;  ///< "R", "G", "B", "variance.R", ...; size.x * size.y each
     std::map<std::string, Attribute> attributes;
+    std::optional<Chromaticities> chromaticities = {};  ///< of R, G and B, if the file says so
 
     bool has(const std::string& channel) const { return channels.contains(channel); }
 };

@@ -36,7 +36,7 @@ void readNoriCamera(ReadContext& context, const XmlElement& element) {
 
     CameraDescription& camera = context.scene.camera;
     camera.where = reader.where();
-    camera.fovXDegrees = reader.number("fov", 30.0, kFovRange);
+    camera.fovDegrees = reader.number("fov", 30.0, kFovRange);
     camera.toWorld = readCameraTransform(reader, "toWorld");
     readClipping(context, reader, "nearClip", "farClip");
     reader.finish();

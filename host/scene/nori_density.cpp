@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kCloudProperties{"detailAmount", "noiseScale", "warpAmount",       "erosionAmount",
                                       "surfaceWidth", "noiseSeed",  "densityThreshold", "bakeResolution"};
 
-bool isCloud(const PropertyReader& reader) {
+bool isCloud(PropertyReader& reader) {
     return std::ranges::any_of(kCloudProperties, [&reader](const char* name) { return reader.has(name); });
 }
 

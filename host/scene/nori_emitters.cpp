@@ -23,7 +23,7 @@ glm::dvec3 readDirection(PropertyReader& reader, const char* name, glm::dvec3 fa
 }
 
 /// The one of two names that was given; the first when neither was.
-const char* givenName(const PropertyReader& reader, const char* name, const char* alias) {
+const char* givenName(PropertyReader& reader, const char* name, const char* alias) {
     if (!reader.has(alias)) return name;
     if (reader.has(name))
         reader.fail(reader.whereOf(alias), fmt::format("give either \"{}\" or \"{}\", not both", name, alias));

@@ -42,6 +42,7 @@ SceneDescription readNoriScene(const std::filesystem::path& file, XmlElement roo
     scene.file = file;
     ReadContext context{tree, options, scene, {}, {}};
     readObjects(context, tree.root());
+    scene.files = tree.files();
     return scene;
 }
 

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <unordered_map>
 
 #include "scene/attribute_values.h"
 #include "scene/scene_grammar.h"
@@ -26,12 +28,13 @@ PropertyReader::PropertyReader(const SceneTree& tree, const XmlElement& object) 
 }
 
 void PropertyReader::checkNamesDiffer() const {
-    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-        const auto earlier = std::find_if(entries_.begin(), entry, [&](const Entry& other) {
-            return !other.name.empty() && other.name == entry->name;
-        });
-        if (earlier != entry)
-            fail(entry->where, fmt::format("\"{}\" is given twice, first at {}", entry->name, earlier->where.text()));
+    std::unordered_map<std::string_view, const Entry*> first;
+    for (const Entry& entry : entries_) {
+        if (entry.name.empty()) continue;
+        const auto [earlier, isNew] = first.try_emplace(entry.name, &entry);
+        if (!isNew)
+            fail(entry.where,
+                 fmt::format("\"{}\" is given twice, first at {}", entry.name, earlier->second->where.text()));
     }
 }
 
@@ -45,7 +48,17 @@ const PropertyReader::Entry* PropertyReader::find(std::string_view name) const {
     return found == entries_.end() ? nullptr : &*found;
 }
 
-bool PropertyReader::has(std::string_view name) const { return find(name) != nullptr; }
+bool PropertyReader::has(std::string_view name) {
+    remember(name);
+    return find(name) != nullptr;
+}
+
+bool PropertyReader::accept(std::string_view name) {
+    remember(name);
+    const auto entry = std::ranges::find(entries_, name, &Entry::name);
+    if (entry == entries_.end()) return false;
+    return entry->used = true;
+}
 
 SourceLocation PropertyReader::whereOf(std::string_view name) const {
     const Entry* entry = find(name);
@@ -110,7 +123,20 @@ std::string PropertyReader::choice(std::string_view name, const std::string& fal
     return value->value;
 }
 
-glm::dvec3 PropertyReader::color(std::string_view name, double fallback, const NumberRange& range) {
+std::string PropertyReader::choiceInAnyCase(std::string_view name, const std::string& fallback,
+                                            const std::vector<std::string>& allowed) {
+    const XmlAttribute* value = text(name);
+    if (!value) return fallback;
+    std::string lower = value->value;
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (std::ranges::find(allowed, lower) == allowed.end())
+        fail(value->where, fmt::format("\"{}\" cannot be \"{}\"{}", name, value->value, suggest(lower, allowed)));
+    return lower;
+}
+
+glm::dvec3 PropertyReader::color(std::string_view name, double fallback, const NumberRange& range, ColorRole role) {
+    // Light of equal energy at all wavelengths in linear Rec. 709, as Mitsuba 3.9.1 has it.
+    constexpr glm::dvec3 kEqualEnergy{1.204793930053711, 0.948291003704071, 0.9089160561561584};
     std::vector<std::string_view> tags{"rgb", "float", "integer", "spectrum"};
     if (tree_.dialect() == Dialect::Nori) tags = {"color", "float", "integer"};
     const XmlElement* property = take(name, tags);
@@ -123,7 +149,7 @@ glm::dvec3 PropertyReader::color(std::string_view name, double fallback, const N
     const bool isTriple = property->tag == "rgb" || property->tag == "color";
     const glm::dvec3 color = isTriple ? parseColor(value) : glm::dvec3(parseNumber(value));
     for (int channel = 0; channel < 3; ++channel) checkRange(*property, name, color[channel], range);
-    return color;
+    return property->tag == "spectrum" && role == ColorRole::Emission ? kEqualEnergy * color : color;
 }
 
 glm::dvec3 PropertyReader::triple(std::string_view name, glm::dvec3 fallback) {

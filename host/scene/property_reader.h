@@ -27,6 +27,10 @@ inline constexpr NumberRange kNonNegative{0.0, 1e30, false, false, "be in [0, 1e
 inline constexpr NumberRange kPositive{0.0, 1e30, true, false, "be in (0, 1e30]"};
 inline constexpr NumberRange kUnitInterval{0.0, 1.0, false, false, "be in [0, 1]"};
 
+/// What a colour is for: a <spectrum> of one number is grey, but the light of an emitter with it has the colour of
+/// equal energy, as in Mitsuba's RGB variants.
+enum class ColorRole { Value, Emission };
+
 /// One object's properties, by name and type. Whatever nobody asked for is an error at finish().
 class PropertyReader {
 public:
@@ -53,8 +57,10 @@ public:
     /// Of a property's value; of the object if it has no such property.
     SourceLocation whereOf(std::string_view name) const;
 
-    /// Whether the property was given (which does not count as asking for it).
-    bool has(std::string_view name) const;
+    /// Whether the property was given. Messages list its name from then on, but it is still to be asked for.
+    bool has(std::string_view name);
+    /// The same for a property that is of no use here, whatever its type; it counts as asked for.
+    bool accept(std::string_view name);
 
     /// Each returns `fallback` if the property was not given.
     /// @throws InputError at the value if it is of another type or out of range.
@@ -63,8 +69,12 @@ public:
     bool boolean(std::string_view name, bool fallback);
     /// One of `allowed`.
     std::string choice(std::string_view name, const std::string& fallback, const std::vector<std::string>& allowed);
+    /// One of `allowed`, which are in lower case; the file may use capitals.
+    std::string choiceInAnyCase(std::string_view name, const std::string& fallback,
+                                const std::vector<std::string>& allowed);
     /// From <rgb>, <spectrum> (constant), <float> or <integer>; in Nori's dialect from <color>, <float> or <integer>.
-    glm::dvec3 color(std::string_view name, double fallback, const NumberRange& range);
+    glm::dvec3 color(std::string_view name, double fallback, const NumberRange& range,
+                     ColorRole role = ColorRole::Value);
     /// From <point> or <vector>.
     glm::dvec3 triple(std::string_view name, glm::dvec3 fallback);
     Transform transform(std::string_view name);

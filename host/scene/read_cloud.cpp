@@ -39,8 +39,9 @@ void readModulation(ReadContext& context, PropertyReader& reader, const Property
                         fmt::format("\"{}\" does not go with a density to modulate: its mass is kept, and it is placed "
                                     "where that density is",
                                     name));
+    if (nested.element->require("type").value != "gridvolume")
+        reader.fail(nested.where, "the density to modulate must be a gridvolume");
     ReadVolume base = readVolumePlugin(context, *nested.element, VolumeRole::Extinction);
-    if (!base.grid || base.grid->cloud) reader.fail(nested.where, "the density to modulate must be a gridvolume");
     if (base.grid->volume.channels != 1)
         reader.fail(nested.where, fmt::format("the density to modulate must be a grid of one channel; {} has {}",
                                               base.grid->volume.source, base.grid->volume.channels));

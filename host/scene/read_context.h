@@ -19,6 +19,7 @@ struct ReadContext {
     std::map<const XmlElement*, std::size_t> mediumIndices;  ///< of the media read so far
     std::set<const XmlElement*> volumesRead;
     std::map<const XmlElement*, std::size_t> textureIndices = {};  ///< of the textures read so far
+    std::vector<const XmlElement*> namedMedia = {};                ///< by emitters, to no effect
 
     /// Tells the user of something that was accepted but has no effect.
     void note(const SourceLocation& where, std::string_view text) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/read_media.h"
 #include "scene/read_textures.h"
 #include "scene/transforms.h"
 #include "shared/scene_types.h"
@@ -20,14 +21,26 @@ void readSamplingWeight(ReadContext& context, PropertyReader& reader) {
                      "\"sampling_weight\" has no effect on the image; lights are chosen by our own rule");
 }
 
-void requireOneForm(const PropertyReader& reader, const char* property) {
+glm::dvec3 readLight(PropertyReader& reader, const char* name, double fallback = 1.0) {
+    return reader.color(name, fallback, kNonNegative, ColorRole::Emission);
+}
+
+/// Accepts the medium that Mitsuba lets an emitter name, which it makes nothing of.
+void readNamedMedium(ReadContext& context, PropertyReader& reader) {
+    const auto medium = reader.onlyNested("medium");
+    if (!medium) return;
+    context.namedMedia.push_back(medium->element);
+    context.note(medium->where, "the medium of an emitter has no effect; which one it is in follows from the shapes");
+}
+
+void requireOneForm(PropertyReader& reader, const char* property) {
     if (reader.has(property) && reader.has("to_world"))
         reader.fail(reader.whereOf("to_world"), fmt::format("give either \"{}\" or \"to_world\", not both", property));
 }
 
 void readDirectional(PropertyReader& reader, EmitterDescription& emitter) {
     emitter.type = EmitterDescription::Type::Directional;
-    emitter.value = reader.color("irradiance", 1.0, kNonNegative);
+    emitter.value = readLight(reader, "irradiance");
     requireOneForm(reader, "direction");
     const glm::dmat4 toWorld = reader.transform("to_world").matrix;
     const glm::dvec3 direction = reader.triple("direction", glm::dvec3(toWorld[2]));
@@ -39,7 +52,7 @@ void readDirectional(PropertyReader& reader, EmitterDescription& emitter) {
 
 void readPoint(PropertyReader& reader, EmitterDescription& emitter) {
     emitter.type = EmitterDescription::Type::Point;
-    emitter.value = reader.color("intensity", 1.0, kNonNegative);
+    emitter.value = readLight(reader, "intensity");
     requireOneForm(reader, "position");
     const glm::dmat4 toWorld = reader.transform("to_world").matrix;
     emitter.vector = reader.triple("position", glm::dvec3(toWorld[3]));
@@ -56,7 +69,7 @@ void rejectSecondSurrounding(const ReadContext& context, const PropertyReader& r
 void readConstant(const ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
     rejectSecondSurrounding(context, reader);
     emitter.type = EmitterDescription::Type::Constant;
-    emitter.value = reader.color("radiance", 1.0, kNonNegative);
+    emitter.value = readLight(reader, "radiance");
 }
 
 void readEnvironmentMap(ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
@@ -80,7 +93,7 @@ void readStars(PropertyReader& reader, SkyDescription& sky) {
     constexpr NumberRange kSize{1e-3, 10.0, false, false, "be in [0.001, 10] degrees"};
     sky.starDensity = reader.number("star_density", 0.0, kNonNegative);
     sky.starSizeDegrees = reader.number("star_size", 0.1, kSize);
-    sky.starRadiance = reader.color("star_radiance", 1.0, kNonNegative);
+    sky.starRadiance = readLight(reader, "star_radiance");
     sky.starSeed = std::uint32_t(reader.integer("star_seed", 0, 0, 0xffffffffll));
     const double stars = 4.0 * kPi * sky.starDensity;
     if (stars > shared::kMaxStars)
@@ -107,8 +120,8 @@ void readSky(const ReadContext& context, PropertyReader& reader, EmitterDescript
     sky.offset = reader.number("offset", sky.offset, kOffset);
     sky.width = reader.number("width", sky.width, kNonNegative);
     sky.power = reader.number("power", sky.power, kNonNegative);
-    sky.bottom = reader.color("bottom", 0.0, kNonNegative);
-    sky.top = reader.color("top", 1.0, kNonNegative);
+    sky.bottom = readLight(reader, "bottom", 0.0);
+    sky.top = readLight(reader, "top");
     readStars(reader, sky);
 }
 
@@ -133,6 +146,7 @@ void readEmitter(ReadContext& context, const XmlElement& element) {
     else
         reader.rejectType(kSceneEmitters);
     readSamplingWeight(context, reader);
+    readNamedMedium(context, reader);
     reader.finish();
     context.scene.emitters.push_back(std::move(emitter));
 }
@@ -140,11 +154,13 @@ void readEmitter(ReadContext& context, const XmlElement& element) {
 void readAreaEmitter(ReadContext& context, const XmlElement& element, ShapeDescription& shape) {
     PropertyReader reader(context.tree, element);
     if (reader.type() != "area") reader.rejectType({"area"});
-    const TexturedColor radiance = readTexturedColor(context, reader, "radiance", 1.0, kNonNegative);
+    const TexturedColor radiance =
+        readTexturedColor(context, reader, "radiance", 1.0, kNonNegative, ColorRole::Emission);
     shape.radiance = radiance.color;
     shape.radianceTexture = radiance.texture;
     shape.emitsOnBothSides = reader.boolean("two_sided", false);
     readSamplingWeight(context, reader);
+    readNamedMedium(context, reader);
     reader.finish();
 }
 

@@ -54,19 +54,22 @@ void readFilm(ReadContext& context, const XmlElement& element) {
     readCrop(reader, film);
     if (const auto filter = reader.onlyNested("rfilter")) readFilter(context, *filter->element);
 
-    reader.choice("file_format", "openexr", {"openexr", "exr"});
-    const std::string pixels = reader.choice("pixel_format", "rgb", {"rgb", "rgba", "luminance", "xyz"});
+    const std::string file = reader.choiceInAnyCase("file_format", "openexr", {"openexr", "exr", "rgbe", "pfm"});
+    if (file == "rgbe" || file == "pfm")
+        context.note(reader.whereOf("file_format"), fmt::format("\"file_format\" {}: openexr is written", file));
+    const std::string pixels =
+        reader.choiceInAnyCase("pixel_format", "rgb", {"rgb", "rgba", "luminance", "luminance_alpha", "xyz", "xyza"});
     if (pixels != "rgb")
         context.note(reader.whereOf("pixel_format"), fmt::format("\"pixel_format\" {}: rgb is written", pixels));
-    const std::string components = reader.choice("component_format", "float16", {"float16", "float32", "uint32"});
+    const std::string components =
+        reader.choiceInAnyCase("component_format", "float16", {"float16", "float32", "uint32"});
     if (components != "float32" && reader.has("component_format"))
         context.note(reader.whereOf("component_format"),
                      fmt::format("\"component_format\" {}: float32 is written", components));
-    if (reader.boolean("sample_border", false))
-        context.note(reader.whereOf("sample_border"),
-                     "\"sample_border\" has no effect: each sample counts for its own pixel only");
+    film.samplesBorder = reader.boolean("sample_border", false);
     if (reader.boolean("compensate", false))
         context.note(reader.whereOf("compensate"), "\"compensate\" has no effect: sums are always compensated");
+    if (reader.accept("banner")) context.note(reader.whereOf("banner"), "\"banner\" has no effect");
     reader.finish();
 }
 

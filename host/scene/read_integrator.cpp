@@ -11,6 +11,8 @@ const XmlElement& unwrapMoment(const ReadContext& context, const XmlElement& ele
     PropertyReader reader(context.tree, element);
     const auto inner = reader.onlyNested("integrator");
     if (!inner) reader.fail(element.where, "needs a nested <integrator>: direct, path, volpath or volpathmis");
+    if (inner->element->require("type").value == "moment")
+        reader.fail(inner->where, "cannot hold another \"moment\"; it takes direct, path, volpath or volpathmis");
     reader.finish();
     return *inner->element;
 }
@@ -72,6 +74,10 @@ void readIntegrator(ReadContext& context, const XmlElement& element) {
         readDepth(reader, integrator);
     }
     integrator.depthLayers = unsigned(reader.integer("depth_layers", 0, 0, kMostDepthLayers));
+    if (reader.type() == "volpathmis" && reader.has("use_spectral_mis")) {
+        reader.boolean("use_spectral_mis", true);
+        context.note(reader.whereOf("use_spectral_mis"), "\"use_spectral_mis\" has no effect on the mean");
+    }
     if (reader.boolean("hide_emitters", false))
         reader.fail(reader.whereOf("hide_emitters"), "\"hide_emitters\" must be false; hiding lights is not supported");
     for (const char* name : {"samples_per_pass", "block_size"})

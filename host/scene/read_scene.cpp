@@ -20,6 +20,13 @@ namespace {
                      fmt::format("<{}> must be nested: film and sampler in <sensor>, rfilter in <film>", element.tag));
 }
 
+/// Checks the media that only emitters name.
+void checkNamedMedia(ReadContext& context, const std::vector<const XmlElement*>& elements) {
+    std::set<const XmlElement*> checked(elements.begin(), elements.end());
+    for (const XmlElement* medium : context.namedMedia)
+        if (!context.mediumIndices.contains(medium) && checked.insert(medium).second) readMedium(context, *medium);
+}
+
 /// Reads the objects at scene level that have no effect by themselves. What shapes refer to is read there; the rest is
 /// checked all the same, so that no mistake goes unnoticed. Media come before volumes, which they refer to, and
 /// surfaces before textures.
@@ -37,6 +44,7 @@ void checkSharedObjects(ReadContext& context, const std::vector<const XmlElement
             rejectAtSceneLevel(*element);
         }
     }
+    checkNamedMedia(context, elements);
     for (const XmlElement* element : elements) {
         if (element->tag == "texture" && !context.textureIndices.contains(element)) {
             textureIndex(context, *element);
@@ -77,6 +85,7 @@ SceneDescription readScene(const std::filesystem::path& file, const SceneReadOpt
     scene.file = file;
     ReadContext context{tree, options, scene, {}, {}};
     readObjects(context, tree.root());
+    scene.files = tree.files();
     return scene;
 }
 

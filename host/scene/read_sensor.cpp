@@ -5,6 +5,7 @@
 
 #include "scene/attribute_values.h"
 #include "scene/read_film.h"
+#include "scene/read_media.h"
 #include "scene/transforms.h"
 
 namespace parhelion {
@@ -22,18 +23,30 @@ double readFocalLength(const PropertyReader& reader, const XmlAttribute& value) 
     return length;
 }
 
-double readHorizontalFov(PropertyReader& reader, double aspect) {
+void readFov(PropertyReader& reader, CameraDescription& camera) {
     const XmlAttribute* lens = reader.text("focal_length");
     if (!reader.has("fov")) {
         if (reader.has("fov_axis"))
             reader.fail(reader.whereOf("fov_axis"), "\"fov_axis\" needs a \"fov\"; a focal length fixes the diagonal");
-        const double focalLength = lens ? readFocalLength(reader, *lens) : 50.0;
-        return horizontalFov(diagonalFovOfLens(focalLength), FovAxis::Diagonal, aspect);
+        camera.fovDegrees = diagonalFovOfLens(lens ? readFocalLength(reader, *lens) : 50.0);
+        camera.fovAxis = FovAxis::Diagonal;
+        return;
     }
     if (lens) reader.fail(lens->where, "give either \"fov\" or \"focal_length\", not both");
-    const double fov = reader.number("fov", 0.0, kFovRange);
-    const std::string axis = reader.choice("fov_axis", "x", kFovAxes);
-    return horizontalFov(fov, static_cast<FovAxis>(std::ranges::find(kFovAxes, axis) - kFovAxes.begin()), aspect);
+    camera.fovDegrees = reader.number("fov", 0.0, kFovRange);
+    const std::string axis = reader.choiceInAnyCase("fov_axis", "x", kFovAxes);
+    camera.fovAxis = static_cast<FovAxis>(std::ranges::find(kFovAxes, axis) - kFovAxes.begin());
+}
+
+/// Accepts Mitsuba's shutter times: nothing moves here, as nothing does there.
+void readShutter(ReadContext& context, PropertyReader& reader) {
+    const double open = reader.number("shutter_open", 0.0), close = reader.number("shutter_close", 0.0);
+    if (open > close)
+        reader.fail(reader.whereOf("shutter_open"),
+                    fmt::format("\"shutter_open\" must be at most \"shutter_close\"; got {} and {}", open, close));
+    for (const char* name : {"shutter_open", "shutter_close"})
+        if (reader.has(name))
+            context.note(reader.whereOf(name), fmt::format("\"{}\" has no effect: nothing moves", name));
 }
 
 void readSampler(ReadContext& context, const XmlElement& element) {
@@ -53,24 +66,6 @@ void readSampler(ReadContext& context, const XmlElement& element) {
 }
 
 }  // namespace
-
-double horizontalFov(double fovDegrees, FovAxis axis, double aspect) {
-    const double tangent = std::tan(glm::radians(fovDegrees) / 2.0);
-    const auto fromTangent = [](double t) { return glm::degrees(2.0 * std::atan(t)); };
-    switch (axis) {
-        case FovAxis::X:
-            return fovDegrees;
-        case FovAxis::Y:
-            return fromTangent(tangent * aspect);
-        case FovAxis::Diagonal:
-            return fromTangent(tangent / std::sqrt(1.0 + 1.0 / (aspect * aspect)));
-        case FovAxis::Smaller:
-            return horizontalFov(fovDegrees, aspect > 1.0 ? FovAxis::Y : FovAxis::X, aspect);
-        case FovAxis::Larger:
-            return horizontalFov(fovDegrees, aspect > 1.0 ? FovAxis::X : FovAxis::Y, aspect);
-    }
-    return fovDegrees;
-}
 
 double diagonalFovOfLens(double focalLength) {
     return glm::degrees(2.0 * std::atan(std::hypot(36.0, 24.0) / (2.0 * focalLength)));
@@ -103,18 +98,20 @@ void readSensor(ReadContext& context, const XmlElement& element) {
     if (reader.type() != "perspective") reader.rejectType({"perspective"});
     if (const auto film = reader.onlyNested("film")) readFilm(context, *film->element);
     if (const auto sampler = reader.onlyNested("sampler")) readSampler(context, *sampler->element);
-    if (const auto medium = reader.onlyNested("medium"))
-        reader.fail(medium->where, "naming the camera's medium is not supported; it follows from the shapes around it");
 
     CameraDescription& camera = context.scene.camera;
-    const glm::dvec2 size(context.scene.film.size);
+    if (const auto medium = reader.onlyNested("medium")) {
+        camera.medium = mediumIndex(context, *medium->element);
+        camera.mediumWhere = medium->where;
+    }
     camera.where = reader.where();
     camera.toWorld = readCameraTransform(reader, "to_world");
-    camera.fovXDegrees = readHorizontalFov(reader, size.x / size.y);
+    readFov(reader, camera);
     for (int axis = 0; axis < 2; ++axis)
         camera.principalPointOffset[axis] =
             reader.number(axis == 0 ? "principal_point_offset_x" : "principal_point_offset_y", 0.0, kAnyNumber);
     readClipping(context, reader, "near_clip", "far_clip");
+    readShutter(context, reader);
     reader.finish();
 }
 

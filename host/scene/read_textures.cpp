@@ -54,10 +54,10 @@ void readCheckerboard(ReadContext& context, PropertyReader& reader, TextureDescr
 }  // namespace
 
 TexturedColor readTexturedColor(ReadContext& context, PropertyReader& reader, std::string_view name, double fallback,
-                                const NumberRange& range) {
+                                const NumberRange& range, ColorRole role) {
     if (const auto nested = reader.namedNested(name, "texture"))
         return {glm::dvec3(1.0), textureIndex(context, *nested->element)};
-    return {reader.color(name, fallback, range), std::nullopt};
+    return {reader.color(name, fallback, range, role), std::nullopt};
 }
 
 std::size_t textureIndex(ReadContext& context, const XmlElement& element) {

@@ -12,7 +12,7 @@ struct TexturedColor {
 
 /// Reads a colour as PropertyReader::color does, or a nested or referenced texture of that name.
 TexturedColor readTexturedColor(ReadContext& context, PropertyReader& reader, std::string_view name, double fallback,
-                                const NumberRange& range);
+                                const NumberRange& range, ColorRole role = ColorRole::Value);
 
 /// Index of a <texture>, which is read when it is first met: bitmap or checkerboard, as in Mitsuba.
 /// @throws InputError for other plugins, and whatever is wrong with properties or file.

@@ -33,6 +33,10 @@ GridPlacement readGrid(ReadContext& context, PropertyReader& reader, VolumeRole 
     // Both concern Mitsuba's spectral upsampling and texture units: they change nothing about an RGB image.
     reader.boolean("raw", false);
     reader.boolean("accel", true);
+    if (reader.has("max_value")) {
+        reader.number("max_value", 0.0, kNonNegative);
+        context.note(reader.whereOf("max_value"), "\"max_value\" has no effect: bounds follow from the values");
+    }
 
     GridPlacement placement;
     placement.where = reader.where();
@@ -52,6 +56,21 @@ GridPlacement readGrid(ReadContext& context, PropertyReader& reader, VolumeRole 
     return placement;
 }
 
+/// Mitsuba places a constant in the unit cube under to_world, outside of which a heterogeneous medium ends.
+glm::dvec3 readConstant(ReadContext& context, PropertyReader& reader, VolumeRole role) {
+    const glm::dvec3 value = reader.color("value", 1.0, role == VolumeRole::Albedo ? kUnitInterval : kNonNegative);
+    if (reader.has("to_world")) {
+        reader.transform("to_world");
+        context.note(reader.whereOf("to_world"),
+                     role == VolumeRole::Albedo
+                         ? "\"to_world\" has no effect on a constant albedo"
+                         : "\"to_world\" has no effect: a constant fills its medium's boundary, where Mitsuba ends a "
+                           "heterogeneous medium with the cube that this places");
+    }
+    reader.finish();
+    return value;
+}
+
 }  // namespace
 
 ReadVolume readVolumePlugin(ReadContext& context, const XmlElement& element, VolumeRole role) {
@@ -61,8 +80,7 @@ ReadVolume readVolumePlugin(ReadContext& context, const XmlElement& element, Vol
     if (reader.type() == "gridvolume") {
         result.grid = readGrid(context, reader, role);
     } else if (reader.type() == "constvolume") {
-        result.constant = reader.color("value", 1.0, role == VolumeRole::Albedo ? kUnitInterval : kNonNegative);
-        reader.finish();
+        result.constant = readConstant(context, reader, role);
     } else if (reader.type() == "procedural_cloud" && role == VolumeRole::Extinction) {
         result.grid = readProceduralCloud(context, reader);
     } else if (role == VolumeRole::Extinction) {

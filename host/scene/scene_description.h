@@ -30,15 +30,22 @@ struct FilmDescription {
     glm::uvec2 size{768, 576};  ///< Mitsuba's defaults
     std::optional<glm::uvec2> cropOffset, cropSize;
     ReconstructionFilter filter = ReconstructionFilter::Gaussian;
-    double filterRadius = 2.0;  ///< where it ends: 0.5 for box, 4 * stddev for Mitsuba's gaussian; pixels
-    double filterStddev = 0.5;  ///< gaussian
+    bool samplesBorder = false;  ///< the filter reaches beyond the film; else it ends there (Mitsuba's sample_border)
+    double filterRadius = 2.0;   ///< where it ends: 0.5 for box, 4 * stddev for Mitsuba's gaussian; pixels
+    double filterStddev = 0.5;   ///< gaussian
 };
+
+/// How a field of view is measured.
+enum class FovAxis { X, Y, Diagonal, Smaller, Larger };
 
 struct CameraDescription {
     SourceLocation where;
-    glm::dmat4 toWorld{1.0};               ///< camera looks along +z, +y up, +x left in the image
-    double fovXDegrees = 0.0;              ///< horizontal, resolved from every fov rule and the film's aspect
+    glm::dmat4 toWorld{1.0};  ///< camera looks along +z, +y up, +x left in the image
+    double fovDegrees = 0.0;
+    FovAxis fovAxis = FovAxis::X;          ///< of the film that is rendered, whose aspect may not be the scene's
     glm::dvec2 principalPointOffset{0.0};  ///< Mitsuba's principal_point_offset_x, _y
+    std::optional<std::size_t> medium;     ///< that the sensor names; which one it is in follows from the shapes
+    SourceLocation mediumWhere;
 };
 
 struct IntegratorDescription {
@@ -141,6 +148,7 @@ struct EmitterDescription {
 /// What the author wrote, checked value by value; every part keeps its location.
 struct SceneDescription {
     std::filesystem::path file;
+    std::vector<std::filesystem::path> files;  ///< all that were read: `file`, those it includes and those they name
     CameraDescription camera;
     FilmDescription film;
     IntegratorDescription integrator;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "scene/scene_grammar.h"
 #include "scene/suggestions.h"
@@ -17,11 +18,17 @@ constexpr std::size_t kMostIncludes = 10'000;
 constexpr std::size_t kDeepestInclude = 32;
 // Likewise a <default> that names another one twice.
 constexpr std::size_t kLongestValue = 65536;
+constexpr std::size_t kMostSubstitutedBytes = std::size_t{64} << 20;
 
 std::filesystem::path canonicalPath(const std::filesystem::path& file) {
     std::error_code ignored;  // a path that cannot be resolved is reported when it is read
     const std::filesystem::path canonical = std::filesystem::weakly_canonical(file, ignored);
     return canonical.empty() ? file : canonical;
+}
+
+bool isDirective(const XmlElement& element) {
+    constexpr std::array<std::string_view, 4> kDirectives{"default", "path", "alias", "include"};
+    return std::ranges::find(kDirectives, element.tag) != kDirectives.end();
 }
 
 }  // namespace
@@ -47,11 +54,13 @@ XmlElement SceneLoader::load(const std::filesystem::path& file, XmlElement sourc
                          fmt::format("a scene file starts with <scene version=\"3.0.0\">; got <{}>", source.tag));
     upgradeVersion(source);
     checkElement(source, "");
-    folders_ = {file.parent_path()};
-    includeStack_ = {canonicalPath(file)};
+    files_ = {file};
+    openFiles_ = {{canonicalPath(file), file.parent_path(), {}}};
     XmlElement target{source.tag, source.where, source.attributes, {}};
     loadChildren(source, target);
     checkDefinesUsed();
+    folders_ = openFiles_.front().paths;
+    folders_.push_back(openFiles_.front().folder);
     return target;
 }
 
@@ -61,6 +70,10 @@ void SceneLoader::loadChildren(XmlElement& source, XmlElement& target) {
 
 void SceneLoader::loadChild(XmlElement& child, XmlElement& target) {
     checkElement(child, target.tag);
+    loadCheckedChild(child, target);
+}
+
+void SceneLoader::loadCheckedChild(XmlElement& child, XmlElement& target) {
     if (++elementCount_ > kMostElements)
         throw InputError(child.where, fmt::format("a scene may have at most {} elements", kMostElements));
     substitute(child);
@@ -104,6 +117,11 @@ std::string SceneLoader::substituted(const XmlAttribute& attribute) {
             throw InputError(attribute.where,
                              fmt::format("value is longer than {} characters after replacing $names", kLongestValue));
     }
+    substitutedBytes_ += result.size();
+    if (substitutedBytes_ > kMostSubstitutedBytes)
+        throw InputError(attribute.where, fmt::format("the values of a scene may have at most {} characters after "
+                                                      "replacing $names",
+                                                      kMostSubstitutedBytes));
     return result;
 }
 
@@ -114,35 +132,61 @@ void SceneLoader::setDefault(const XmlElement& element) {
 }
 
 void SceneLoader::addFolder(const XmlAttribute& value) {
-    const std::filesystem::path folder = std::filesystem::path(value.where.file).parent_path() / value.value;
+    const auto folder = findFile(value, includeFolders());
     std::error_code ignored;
-    if (!std::filesystem::is_directory(folder, ignored))
-        throw InputError(value.where, fmt::format("<path> must name a folder; there is none at {}", folder.string()));
-    folders_.push_back(folder);
+    if (!folder || !std::filesystem::is_directory(*folder, ignored))
+        throw InputError(value.where, fmt::format("<path> must name a folder; there is none \"{}\"", value.value));
+    std::vector<std::filesystem::path>& paths = openFiles_.back().paths;
+    paths.insert(paths.begin(), *folder);
+}
+
+/// As in Mitsuba, a file's own folder and its <path>s, the last one first, come before those of the file that
+/// includes it.
+std::vector<std::filesystem::path> SceneLoader::includeFolders() const {
+    std::vector<std::filesystem::path> folders;
+    for (auto file = openFiles_.rbegin(); file != openFiles_.rend(); ++file) {
+        folders.push_back(file->folder);
+        folders.insert(folders.end(), file->paths.begin(), file->paths.end());
+    }
+    return folders;
 }
 
 void SceneLoader::include(const XmlElement& element, XmlElement& target) {
     const XmlAttribute& name = element.require("filename");
-    const std::optional<std::filesystem::path> file = findFile(name, folders_);
+    const std::optional<std::filesystem::path> file = findFile(name, includeFolders());
     if (!file) throw InputError(name.where, fmt::format("included file \"{}\" not found", name.value));
     const std::filesystem::path canonical = canonicalPath(*file);
-    if (std::ranges::find(includeStack_, canonical) != includeStack_.end())
+    if (std::ranges::find(openFiles_, canonical, &OpenFile::canonical) != openFiles_.end())
         throw InputError(name.where, fmt::format("\"{}\" includes itself", name.value));
-    if (includeStack_.size() >= kDeepestInclude)
+    if (openFiles_.size() >= kDeepestInclude)
         throw InputError(name.where, fmt::format("includes are nested more than {} deep", kDeepestInclude));
     if (++includeCount_ > kMostIncludes)
         throw InputError(name.where, fmt::format("a scene may include at most {} files", kMostIncludes));
 
     XmlElement source = readXml(*file, name.where);
     upgradeVersion(source);
-    includeStack_.push_back(canonical);
-    if (source.tag == "scene") {
-        checkElement(source, "");
-        loadChildren(source, target);
-    } else {
-        loadChild(source, target);
+    files_.push_back(*file);
+    openFiles_.push_back({canonical, file->parent_path(), {}});
+    splice(source, element, target);
+    openFiles_.pop_back();
+}
+
+void SceneLoader::splice(XmlElement& source, const XmlElement& include, XmlElement& target) {
+    const XmlAttribute* role = include.find("name");
+    if (source.tag != "scene") {
+        std::erase_if(source.attributes, [role](const XmlAttribute& attribute) {
+            return attribute.name == "version" || (role && attribute.name == "name");
+        });
+        if (role) source.attributes.push_back(*role);
+        return loadChild(source, target);
     }
-    includeStack_.pop_back();
+    if (role) throw InputError(role->nameWhere, "<include> takes a name only if the file holds one object, no <scene>");
+    checkElement(source, "");
+    for (XmlElement& child : source.children) {
+        checkElement(child, source.tag);
+        if (!isDirective(child)) checkElement(child, target.tag);
+        loadCheckedChild(child, target);
+    }
 }
 
 void SceneLoader::checkDefinesUsed() const {

@@ -25,8 +25,11 @@ public:
     /// @param source  the file as it was read.
     XmlElement load(const std::filesystem::path& file, XmlElement source);
 
-    /// After load(): where files are searched, the scene's own folder first.
+    /// After load(): where the files that the scene names are searched, as in Mitsuba: in its own <path> folders, the
+    /// last one first, then in its own folder. Those of included files do not count.
     const std::vector<std::filesystem::path>& folders() const { return folders_; }
+    /// After load(): the scene's file and all that it includes.
+    const std::vector<std::filesystem::path>& files() const { return files_; }
     /// After load(): the <alias> elements in order.
     const std::vector<XmlElement>& aliases() const { return aliases_; }
 
@@ -37,22 +40,34 @@ private:
         bool used = false;
     };
 
+    /// A file that is being read.
+    struct OpenFile {
+        std::filesystem::path canonical;
+        std::filesystem::path folder;
+        std::vector<std::filesystem::path> paths;  ///< its <path> folders, the last one first
+    };
+
     void loadChildren(XmlElement& source, XmlElement& target);
     void loadChild(XmlElement& child, XmlElement& target);
+    void loadCheckedChild(XmlElement& child, XmlElement& target);
     void substitute(XmlElement& element);
     std::string substituted(const XmlAttribute& attribute);
     void setDefault(const XmlElement& element);
     void addFolder(const XmlAttribute& value);
+    std::vector<std::filesystem::path> includeFolders() const;
     void include(const XmlElement& element, XmlElement& target);
+    void splice(XmlElement& source, const XmlElement& include, XmlElement& target);
     void checkDefinesUsed() const;
     std::vector<std::string> variableNames() const;
 
     std::map<std::string, Variable, std::greater<>> variables_;
     std::vector<std::filesystem::path> folders_;
-    std::vector<std::filesystem::path> includeStack_;
+    std::vector<std::filesystem::path> files_;
+    std::vector<OpenFile> openFiles_;  ///< each included by the one before
     std::vector<XmlElement> aliases_;
     std::size_t elementCount_ = 0;
     std::size_t includeCount_ = 0;
+    std::size_t substitutedBytes_ = 0;
 };
 
 }  // namespace parhelion

@@ -4,11 +4,34 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "scene/scene_loader.h"
 #include "scene/suggestions.h"
 
 namespace parhelion {
+namespace {
+
+/// One element on a walk down the tree.
+struct Step {
+    const XmlElement* element;
+    std::size_t nextChild = 0;
+};
+
+std::string nameOf(const XmlElement& element) {
+    const XmlAttribute* id = element.find("id");
+    return id ? id->value : fmt::format("<{}>", element.tag);
+}
+
+/// "a -> b -> a", where `closing` is the a that the last element of `path` refers to.
+std::string describeCycle(const std::vector<Step>& path, const XmlElement& closing) {
+    std::string text;
+    for (auto step = std::ranges::find(path, &closing, &Step::element); step != path.end(); ++step)
+        text += nameOf(*step->element) + " -> ";
+    return text + nameOf(closing);
+}
+
+}  // namespace
 
 SceneTree SceneTree::load(const std::filesystem::path& file, XmlElement source,
                           const std::map<std::string, std::string>& defines) {
@@ -16,8 +39,10 @@ SceneTree SceneTree::load(const std::filesystem::path& file, XmlElement source,
     SceneTree tree;
     tree.root_ = loader.load(file, std::move(source));
     tree.folders_ = loader.folders();
+    tree.files_ = loader.files();
     tree.indexObjects(tree.root_);
     tree.addAliases(loader.aliases());
+    tree.rejectCycles();
     return tree;
 }
 
@@ -26,6 +51,7 @@ SceneTree SceneTree::ofNori(const std::filesystem::path& file, XmlElement root) 
     tree.dialect_ = Dialect::Nori;
     tree.root_ = std::move(root);
     tree.folders_ = {file.parent_path()};
+    tree.files_ = {file};
     return tree;
 }
 
@@ -49,6 +75,28 @@ void SceneTree::addAliases(const std::vector<XmlElement>& aliases) {
     }
 }
 
+/// A depth-first walk without recursion: chains of references may be long.
+void SceneTree::rejectCycles() const {
+    std::vector<Step> path{{&root_}};
+    std::unordered_map<const XmlElement*, bool> left{{&root_, false}};  // of the elements met: false while on the path
+    while (!path.empty()) {
+        Step& step = path.back();
+        if (step.nextChild == step.element->children.size()) {
+            left[step.element] = true;
+            path.pop_back();
+            continue;
+        }
+        const XmlElement& child = step.element->children[step.nextChild++];
+        const XmlElement& target = child.tag == "ref" ? object(child.require("id")) : child;
+        if (target.children.empty()) continue;
+        const auto [met, isNew] = left.try_emplace(&target, false);
+        if (isNew)
+            path.push_back({&target});
+        else if (!met->second)
+            throw InputError(child.where, fmt::format("circular reference: {}", describeCycle(path, target)));
+    }
+}
+
 const XmlElement& SceneTree::object(const XmlAttribute& id) const {
     if (const auto found = objects_.find(id.value); found != objects_.end()) return *found->second;
     std::vector<std::string> ids;
@@ -57,7 +105,10 @@ const XmlElement& SceneTree::object(const XmlAttribute& id) const {
 }
 
 std::filesystem::path SceneTree::resolveFile(const XmlAttribute& name) const {
-    if (const auto file = findFile(name, folders_)) return *file;
+    if (const auto file = findFile(name, folders_)) {
+        files_.push_back(*file);
+        return *file;
+    }
     std::vector<std::string> searched;
     for (const std::filesystem::path& folder : folders_) searched.push_back(folder.empty() ? "." : folder.string());
     const std::filesystem::path besides = std::filesystem::path(name.where.file).parent_path();

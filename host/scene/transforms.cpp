@@ -25,8 +25,11 @@ glm::dmat4 readRotation(const XmlElement& step) {
 }
 
 glm::dmat4 readLookAt(const XmlElement& step) {
-    const glm::dmat4 matrix = lookAtMatrix(parseTriple(step.require("origin")), parseTriple(step.require("target")),
-                                           parseTriple(step.require("up")));
+    const glm::dvec3 origin = parseTriple(step.require("origin")), target = parseTriple(step.require("target"));
+    const XmlAttribute* given = step.find("up");
+    glm::dvec3 up = given && !given->value.empty() ? parseTriple(*given) : glm::dvec3(0.0);
+    if (up == glm::dvec3(0.0)) up = anyUp(glm::normalize(target - origin));
+    const glm::dmat4 matrix = lookAtMatrix(origin, target, up);
     if (!isFinite(matrix))
         throw InputError(step.where,
                          "lookat needs an origin and a target that differ, and an up that is not parallel "
@@ -72,6 +75,12 @@ void checkInvertible(const glm::dmat4& matrix, const SourceLocation& where) {
 
 glm::dmat4 rotationMatrix(glm::dvec3 axis, double angleDegrees) {
     return glm::rotate(glm::dmat4(1.0), glm::radians(angleDegrees), axis);
+}
+
+glm::dvec3 anyUp(glm::dvec3 direction) {
+    const double sign = std::copysign(1.0, direction.z);
+    const double a = -1.0 / (sign + direction.z);
+    return {1.0 + sign * direction.x * direction.x * a, sign * direction.x * direction.y * a, -sign * direction.x};
 }
 
 glm::dmat4 lookAtMatrix(glm::dvec3 origin, glm::dvec3 target, glm::dvec3 up) {

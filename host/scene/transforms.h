@@ -13,6 +13,11 @@ glm::dmat4 rotationMatrix(glm::dvec3 axis, double angleDegrees);
 /// the image). Nothing is checked: coinciding points or a parallel `up` give NaN.
 glm::dmat4 lookAtMatrix(glm::dvec3 origin, glm::dvec3 target, glm::dvec3 up);
 
+/// The `up` of a <lookat> without one, as in Mitsuba: perpendicular to `direction`, which has length 1.
+///
+/// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+glm::dvec3 anyUp(glm::dvec3 direction);
+
 /// The product of a <transform>'s steps; each is applied after those above it.
 /// @throws InputError at a step that is degenerate, at a matrix whose last row is not 0 0 0 1, and at the whole if it
 /// cannot be inverted.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 
@@ -33,6 +35,28 @@ std::string snakeCase(const std::string& name) {
     return result;
 }
 
+/// Mitsuba's old placement of a texture: to_uv adds the offsets first, then scales.
+void upgradePlacement(XmlElement& texture) {
+    constexpr std::array<std::string_view, 4> kNames{"uoffset", "voffset", "uscale", "vscale"};
+    XmlElement translate{"translate", texture.where, {}, {}}, scale{"scale", texture.where, {}, {}};
+    std::erase_if(texture.children, [&](const XmlElement& child) {
+        const XmlAttribute* name = child.find("name");
+        const XmlAttribute* value = child.find("value");
+        if (!name || !value || (child.tag != "float" && child.tag != "integer")) return false;
+        const auto place = std::find(kNames.begin(), kNames.end(), name->value);
+        if (place == kNames.end()) return false;
+        const auto index = place - kNames.begin();
+        XmlElement& step = index < 2 ? translate : scale;
+        const std::string axis = index % 2 == 0 ? "x" : "y";
+        if (step.find(axis)) return false;  // given twice, which is found to be unknown
+        step.attributes.push_back({axis, value->value, value->nameWhere, value->where});
+        return true;
+    });
+    if (translate.attributes.empty() && scale.attributes.empty()) return;
+    texture.children.push_back({"transform", texture.where, {{"name", "to_uv", texture.where, texture.where}}, {}});
+    texture.children.back().children = {std::move(translate), std::move(scale)};
+}
+
 void upgradeNames(XmlElement& element) {
     if (element.tag == "lookAt") element.tag = "lookat";
     if (element.tag != "default")
@@ -42,12 +66,14 @@ void upgradeNames(XmlElement& element) {
             if (attribute.value == "diffuse_reflectance") attribute.value = "reflectance";
         }
     for (XmlElement& child : element.children) upgradeNames(child);
+    if (element.tag == "texture") upgradePlacement(element);
 }
 
 }  // namespace
 
 void upgradeVersion(XmlElement& root) {
-    if (root.tag == "scene" && majorVersion(root.require("version")) < 2) upgradeNames(root);
+    const XmlAttribute* version = root.tag == "scene" ? &root.require("version") : root.find("version");
+    if (version && majorVersion(*version) < 2) upgradeNames(root);
 }
 
 }  // namespace parhelion

@@ -15,11 +15,14 @@ void addRadiance(inout Path p, vec3 gain) {
     }
 }
 
+// Shader only: compared in place in the reference.
+bool isTooDeep(Path p) { return hasDepthLimit && p.vertex >= maxDepth; }
+
 // Emission of the surface hit, weighted against next-event estimation at the vertex before.
 void addEmission(Path p, Surface surface, uint lightIndex, inout vec3 gain) {
-    if (lightIndex == kNone || p.vertex >= maxDepth) return;
+    if (lightIndex == kNone || isTooDeep(p)) return;
     Light light = lightAt(lightIndex);
-    float cosine = lightCosine(light, surface.geometricNormal, -p.ray.direction);
+    float cosine = lightCosine(light, surface.geometricNormal, surface.shadingNormal, -p.ray.direction);
     float pdf = lightPdf(light, p.ray.origin, p.hit.t, cosine);
     if (hasStrategyWeights) pdf *= emitterSamples;
     float weight = emissionWeight(p.lastPdf, pdf);
@@ -27,7 +30,7 @@ void addEmission(Path p, Surface surface, uint lightIndex, inout vec3 gain) {
 }
 
 void addEnvironment(Path p, inout vec3 gain) {
-    if (environmentLight == kNone || p.vertex >= maxDepth) return;
+    if (environmentLight == kNone || isTooDeep(p)) return;
     vec3 radiance = environmentRadiance;
     float pdf = kInvFourPi;
     if (hasEnvironmentMap && scene.lights[environmentLight].type == kLightEnvironmentMap) {

@@ -20,7 +20,7 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
     float largest = maxComponent(spectralBeta(p));
     // Far below what a film resolves, roulette at any depth: throughput must not sink into denormals (H37).
     float survival = p.vertex >= rouletteDepth || largest < 1e-20 ? clamp(largest, 0.05, 1.0) : 1.0;
-    bool alive = p.vertex < maxDepth && largest > 0.0 && toUniform(word.w) < survival;
+    bool alive = !isTooDeep(p) && largest > 0.0 && toUniform(word.w) < survival;
     p.beta /= survival;
     vec4 next = sampleScatterer(v.scatterer, vec2(toUniform(word.x), toUniform(word.y)));
     p.lastPdf = hasStrategyWeights ? next.w * scatterSamples : next.w;

@@ -28,11 +28,12 @@ Sphere sphereOf(Light light) {
     return scene.spheres[light.primitive - quadCount];
 }
 
-// Cosine at an area light of what leaves along `outgoing`, which need not be unit; 0 where nothing does.
-float lightCosine(Light light, vec3 normal, vec3 outgoing) {
-    float cosine = dot(normal, outgoing);
-    if (hasTwoSidedLights && (light.flags & kLightTwoSided) != 0u) cosine = abs(cosine);
-    return max(cosine, 0.0);
+// Cosine at an area light of what leaves along `outgoing`, which need not be unit; 0 where nothing does. Which side
+// emits is the shading normal's to say.
+float lightCosine(Light light, vec3 geometricNormal, vec3 shadingNormal, vec3 outgoing) {
+    bool emits = dot(shadingNormal, outgoing) > 0.0;
+    if (hasTwoSidedLights) emits = emits || (light.flags & kLightTwoSided) != 0u;
+    return emits ? abs(dot(geometricNormal, outgoing)) : 0.0;
 }
 
 // Radiance of an area light at (u, v) of its surface.
@@ -41,10 +42,11 @@ vec3 emissionAt(Light light, vec2 uv) {
     return light.emission * textureAt(light.texture, uv);
 }
 
-// 1 - cos of the half angle under which a sphere is seen from outside; 0 from inside (numerics H62).
+// 1 - cos of the half angle under which a sphere is seen from outside; 0 from inside (numerics H62) and from so close that
+// rounding could take a point of the sphere for one outside: scattering finds the light there.
 float oneMinusCosCone(vec3 toCenter, float radius) {
     float sine2 = radius * radius / dot(toCenter, toCenter);
-    return sine2 < 1.0 ? sine2 / (1.0 + sqrt(1.0 - sine2)) : 0.0;
+    return sine2 < kFarthestCone ? sine2 / (1.0 + sqrt(1.0 - sine2)) : 0.0;
 }
 
 LightSample sampleSphereLight(Light light, vec3 position, vec2 u) {
@@ -59,13 +61,14 @@ LightSample sampleSphereLight(Light light, vec3 position, vec2 u) {
     return LightSample(direction, distance, emissionAt(light, uv) * safeDivide(1.0, pdf), pdf, light.primitive);
 }
 
-// Sample of an area given by a point on it, its (u, v), its front normal and its area.
-LightSample sampleArea(Light light, vec3 position, vec3 point, vec2 uv, vec3 normal, float area, uint primitive) {
+// Sample of an area given by a point on it and what it is there.
+LightSample sampleArea(Light light, vec3 position, vec3 point, vec2 uv, vec3 geometricNormal, vec3 shadingNormal,
+                       float area, uint primitive) {
     vec3 toLight = point - position;
     float square = dot(toLight, toLight);
     float distance = sqrt(square);
     vec3 direction = toLight * safeDivide(1.0, distance);
-    float cosine = lightCosine(light, normal, -direction);
+    float cosine = lightCosine(light, geometricNormal, shadingNormal, -direction);
     float pdf = light.selection * safeDivide(square, cosine * area);
     return LightSample(direction, distance, emissionAt(light, uv) * safeDivide(1.0, pdf), pdf, primitive);
 }
@@ -77,7 +80,8 @@ LightSample sampleMeshLight(Light light, vec3 position, float selector, vec2 u, 
     vec3 b = uniformTriangle(u);
     uint first = quadCount + sphereCount + boxCount;
     Surface surface = triangleSurface(primitive - first, b.yz);
-    return sampleArea(light, position, surface.position, surface.uv, surface.geometricNormal, light.area, primitive);
+    return sampleArea(light, position, surface.position, surface.uv, surface.geometricNormal, surface.shadingNormal,
+                      light.area, primitive);
 }
 
 #endif

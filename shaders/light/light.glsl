@@ -5,14 +5,12 @@
 #include "core/scene.glsl"
 #include "light/area_light.glsl"
 #include "light/surrounding.glsl"
-#include "sampling/distribution.glsl"
-#include "sampling/warp.glsl"
 
 // First light whose cumulative probability is above u.
 uint selectLight(float u) {
     uint low = 0u;
     if (hasManyLights) {
-        uint high = scene.lightCount - 1u;
+        uint high = max(scene.lightCount, 1u) - 1u;  // without lights they may have been asked for all the same
         for (uint i = 0u; i < 8u; ++i) {  // kMaxLights = 2^8
             uint middle = (low + high) / 2u;
             bool above = scene.lights[middle].cumulative > u;
@@ -33,7 +31,7 @@ LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
     if (hasAreaLights && light.type == kLightQuad) {
         Quad q = quadOf(light);
         vec3 point = q.corner + u.y * q.edgeU + u.z * q.edgeV;
-        result = sampleArea(light, position, point, u.yz, q.normal, q.area, light.primitive);
+        result = sampleArea(light, position, point, u.yz, q.normal, q.normal, q.area, light.primitive);
     }
     if (hasAreaLights && hasSpheres && light.type == kLightSphere) result = sampleSphereLight(light, position, u.yz);
     if (hasAreaLights && hasTriangles && light.type == kLightMesh) {
@@ -42,13 +40,13 @@ LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
         result = sampleMeshLight(light, position, rest, u.yz, tests);
     }
     if (hasDeltaLights && light.type == kLightDirectional)
-        result = LightSample(-light.vector, kInfinity, light.emission / light.selection, kInfinity, kNone);
+        result = LightSample(-light.vector, kInfinity, light.emission * safeDivide(1.0, light.selection), kInfinity, kNone);
     if (hasDeltaLights && light.type == kLightPoint) {
         vec3 toLight = light.vector - position;
         float square = dot(toLight, toLight);
         float inverse = safeDivide(1.0, square);
-        result = LightSample(toLight * sqrt(inverse), sqrt(square), light.emission * inverse / light.selection,
-                             kInfinity, kNone);
+        result = LightSample(toLight * sqrt(inverse), sqrt(square),
+                             light.emission * (inverse * safeDivide(1.0, light.selection)), kInfinity, kNone);
     }
     if (hasEnvironmentSampling && light.type >= kLightEnvironment) result = sampleSurrounding(light, u.yz, words);
     tests += hasStars ? kMaxStarsPerCell + 1u : 0u;

@@ -5,6 +5,7 @@
 #include "light/environment.glsl"
 #include "light/light_sample.glsl"
 #include "light/sky.glsl"
+#include "sampling/warp.glsl"
 
 // A direction towards a light that surrounds the scene: by u where it is constant, by `words` (the environment draw) on a
 // map or a sky.
@@ -12,7 +13,7 @@ LightSample sampleSurrounding(Light light, vec2 u, uvec4 words) {
     LightSample result = LightSample(vec3(0.0, 0.0, 1.0), kInfinity, vec3(0.0), 1.0, kNone);
     if (light.type == kLightEnvironment) {
         float pdf = kInvFourPi * light.selection;
-        result = LightSample(uniformSphere(u), kInfinity, light.emission / pdf, pdf, kNone);
+        result = LightSample(uniformSphere(u), kInfinity, light.emission * safeDivide(1.0, pdf), pdf, kNone);
     }
     if (hasEnvironmentMap && light.type == kLightEnvironmentMap) {
         vec4 point = sampleEnvironment(words);

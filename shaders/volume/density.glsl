@@ -29,30 +29,7 @@ uvec3 stochasticCorner(vec3 p, uvec3 resolution, vec3 u) {
     return uvec3(clamp(corner, vec3(0.0), vec3(resolution - 1u)));
 }
 
-float stochasticDensity(Medium medium, vec3 pg, vec3 u) {
-    return densityVoxel(medium, stochasticCorner(pg, medium.resolution, u));
-}
-
-float trilinearDensity(Medium medium, vec3 pg) {
-    vec3 s = pg - 0.5;
-    vec3 base = floor(s);
-    vec3 f = s - base;
-    vec3 top = vec3(medium.resolution - 1u);
-    uvec3 a = uvec3(clamp(base, vec3(0.0), top));
-    uvec3 b = uvec3(clamp(base + 1.0, vec3(0.0), top));
-    float x00 = mix(densityVoxel(medium, a), densityVoxel(medium, uvec3(b.x, a.yz)), f.x);
-    float x10 = mix(densityVoxel(medium, uvec3(a.x, b.y, a.z)), densityVoxel(medium, uvec3(b.xy, a.z)), f.x);
-    float x01 = mix(densityVoxel(medium, uvec3(a.xy, b.z)), densityVoxel(medium, uvec3(b.x, a.y, b.z)), f.x);
-    float x11 = mix(densityVoxel(medium, uvec3(a.x, b.yz)), densityVoxel(medium, b), f.x);
-    return mix(mix(x00, x10, f.y), mix(x01, x11, f.y), f.z);
-}
-
-// Density at pg in voxel units; `u`: three uniforms for the stochastic corner.
-float densityAt(Medium medium, vec3 pg, vec3 u) {
-    return stochasticFilter ? stochasticDensity(medium, pg, u) : trilinearDensity(medium, pg);
-}
-
-// Values of a voxel, one a channel, of a medium with kMediumColorDensity.
+// Values of a voxel of a medium with kMediumColorDensity, one a channel.
 vec3 colorVoxel(Medium medium, uvec3 voxel) {
     uint index = (voxel.z * medium.resolution.y + voxel.y) * medium.resolution.x + voxel.x;
     int first = int(medium.voxelOffset + 3u * index);
@@ -60,24 +37,30 @@ vec3 colorVoxel(Medium medium, uvec3 voxel) {
                 texelFetch(densityTexels, first + 2).x);
 }
 
-vec3 trilinearColor(Medium medium, vec3 pg) {
+// Density of each channel in a voxel.
+vec3 voxelAt(Medium medium, uvec3 voxel) {
+    if (hasColorDensity && (medium.flags & kMediumColorDensity) != 0u) return colorVoxel(medium, voxel);
+    return vec3(densityVoxel(medium, voxel));
+}
+
+vec3 trilinearDensity(Medium medium, vec3 pg) {
     vec3 s = pg - 0.5;
     vec3 base = floor(s);
     vec3 f = s - base;
     vec3 top = vec3(medium.resolution - 1u);
     uvec3 a = uvec3(clamp(base, vec3(0.0), top));
     uvec3 b = uvec3(clamp(base + 1.0, vec3(0.0), top));
-    vec3 x00 = mix(colorVoxel(medium, a), colorVoxel(medium, uvec3(b.x, a.yz)), f.x);
-    vec3 x10 = mix(colorVoxel(medium, uvec3(a.x, b.y, a.z)), colorVoxel(medium, uvec3(b.xy, a.z)), f.x);
-    vec3 x01 = mix(colorVoxel(medium, uvec3(a.xy, b.z)), colorVoxel(medium, uvec3(b.x, a.y, b.z)), f.x);
-    vec3 x11 = mix(colorVoxel(medium, uvec3(a.x, b.yz)), colorVoxel(medium, b), f.x);
+    vec3 x00 = mix(voxelAt(medium, a), voxelAt(medium, uvec3(b.x, a.yz)), f.x);
+    vec3 x10 = mix(voxelAt(medium, uvec3(a.x, b.y, a.z)), voxelAt(medium, uvec3(b.xy, a.z)), f.x);
+    vec3 x01 = mix(voxelAt(medium, uvec3(a.xy, b.z)), voxelAt(medium, uvec3(b.x, a.y, b.z)), f.x);
+    vec3 x11 = mix(voxelAt(medium, uvec3(a.x, b.yz)), voxelAt(medium, b), f.x);
     return mix(mix(x00, x10, f.y), mix(x01, x11, f.y), f.z);
 }
 
-// Density of each channel at pg in voxel units, for media with kMediumColorDensity; all channels from one corner.
-vec3 colorDensityAt(Medium medium, vec3 pg, vec3 u) {
-    if (!stochasticFilter) return trilinearColor(medium, pg);
-    return colorVoxel(medium, stochasticCorner(pg, medium.resolution, u));
+// Density of each channel at pg in voxel units; `u`: three uniforms for the stochastic corner, the same for all channels.
+vec3 densityAt(Medium medium, vec3 pg, vec3 u) {
+    if (!stochasticFilter) return trilinearDensity(medium, pg);
+    return voxelAt(medium, stochasticCorner(pg, medium.resolution, u));
 }
 
 // Single-scattering albedo at world position p: the constant, or one corner of the medium's grid.

@@ -30,13 +30,19 @@ struct Segment {
 // Shader only: spelt out where the reference draws.
 uint segmentPurpose(Segment s) { return (s.shadow ? kDrawShadow : kDrawFlight) | s.collisions; }
 
-// What a tentative collision does: q is the real share of the majorant, per channel.
+// Shader only: a member of the medium in the reference.
+bool isHomogeneous(Medium medium) {
+    return hasHomogeneousMedia && (!hasHeterogeneousMedia || (medium.flags & kMediumHomogeneous) != 0u);
+}
+
+// What a tentative collision does: q is the real share of the majorant, per channel, that of the hero
+// density / bound.
 void decideFlight(inout Segment s, vec3 q, float u, float density, float bound) {
     bool real = u * bound < density;
     if (hasChromaticExtinction) {
-        real = u < q[s.hero];
-        vec3 share = real ? q : 1.0 - q;
-        s.ratio *= share / maxComponent(share);
+        s.ratio *= real ? q : 1.0 - q;
+        // By what it has become: by the event's own largest share it would sink to 0 in all channels (H37).
+        s.ratio *= safeDivide(1.0, maxComponent(s.ratio));
     }
     s.state = real ? kCollided : s.state;
 }
@@ -55,8 +61,7 @@ void decideShadow(inout Segment s, vec3 q, float u) {
 // collisions. Returns true where the analytic transmittance took the whole segment.
 // Shader only: within trackShadow in the reference.
 bool stepAnalytically(inout Segment s, Medium medium) {
-    bool homogeneous = hasHomogeneousMedia && (!hasHeterogeneousMedia || (medium.flags & kMediumHomogeneous) != 0u);
-    bool analytic = homogeneous && s.shadow;
+    bool analytic = isHomogeneous(medium) && s.shadow;
     if (analytic) {
         float depth = medium.sigmaMax * (s.end - s.t);
         if (hasChromaticExtinction)
@@ -70,18 +75,10 @@ bool stepAnalytically(inout Segment s, Medium medium) {
     return analytic;
 }
 
-// Density of each channel.
-// Shader only: within densityHere in the reference.
-vec3 densitiesAt(Medium medium, vec3 pg, vec3 u) {
-    vec3 densities = vec3(densityAt(medium, pg, u));
-    if (hasColorDensity && (medium.flags & kMediumColorDensity) != 0u) densities = colorDensityAt(medium, pg, u);
-    return densities;
-}
-
 // One event: the next tentative collision, the next cell, or the end of the segment.
 // Shader only: nextCollision and its loops in the reference.
 void stepSegment(inout Segment s, Medium medium, GridRay ray, uvec2 key, uint vertex, inout uint violations) {
-    bool homogeneous = hasHomogeneousMedia && (!hasHeterogeneousMedia || (medium.flags & kMediumHomogeneous) != 0u);
+    bool homogeneous = isHomogeneous(medium);
     vec3 planes = vec3(kInfinity);
     float bound = 1.0;
     if (hasHeterogeneousMedia) {
@@ -98,7 +95,7 @@ void stepSegment(inout Segment s, Medium medium, GridRay ray, uvec2 key, uint ve
     if (hasHeterogeneousMedia) {
         // Lanes that only change cells would fetch too, and miss the caches: they all read the first voxel.
         vec3 position = collides ? ray.origin + t * ray.direction : vec3(0.5);
-        vec3 values = densitiesAt(medium, position, cornerOffsets(word));
+        vec3 values = densityAt(medium, position, cornerOffsets(word));
         densities = homogeneous ? densities : values;
     }
     float density = hasColorDensity ? maxComponent(densities) : densities.x;
@@ -107,6 +104,7 @@ void stepSegment(inout Segment s, Medium medium, GridRay ray, uvec2 key, uint ve
         violations += density > bound ? 1u : 0u;
         vec3 q = hasColorDensity ? densities / bound : vec3(density / bound);
         if (hasChromaticExtinction) q *= medium.sigmaRatio;
+        if (hasChromaticExtinction) density = medium.sigmaRatio[s.hero] * densities[s.hero];
         float u = toUniform(word.x);
         if (s.shadow) decideShadow(s, q, u);
         else decideFlight(s, q, u, density, bound);

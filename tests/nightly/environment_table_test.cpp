@@ -6,7 +6,8 @@
 
 #include "support/shared_data.h"
 
-// Measured environments against Mitsuba in 1e5 directions each, from a table that is too large to keep:
+// Measured environments against Mitsuba in 1e5 directions each (tests/render/measured_environments_test.cpp has 2000),
+// from a table that is too large to keep:
 //   tools/mitsuba/environment_maps.py --shared 100000 --output TABLE; PARHELION_ENVIRONMENT_TABLE=TABLE
 namespace parhelion {
 namespace {

@@ -5,24 +5,18 @@
 #include <cmath>
 #include <random>
 
+#include "reference/core/scene.h"
+#include "reference/integrator/film.h"
+
 namespace parhelion {
 namespace {
 
 /// Rounding of a result to float32, relative.
 constexpr double kRounding = 0x1p-24;
 
-void addCompensated(float& high, float& low, float value) {
-    const float corrected = value + low;
-    const float sum = high + corrected;
-    low = corrected - (sum - high);
-    high = sum;
-}
-
 void addSample(shared::FilmPixel& pixel, const glm::vec3& sample) {
-    for (int c = 0; c < 3; ++c) {
-        addCompensated(pixel.sumHigh[c], pixel.sumLow[c], sample[c]);
-        addCompensated(pixel.squareHigh[c], pixel.squareLow[c], sample[c] * sample[c]);
-    }
+    reference::Counters counters{};
+    reference::accumulate(pixel, sample, counters);
 }
 
 Film onePixel(std::uint64_t samples) {

@@ -16,14 +16,6 @@ namespace {
 using test::HandScene;
 using test::PixelEstimate;
 
-/// A patch of floor seen from above, at distance 1.
-HandScene floorScene() {
-    HandScene scene;
-    scene.lookAlong({0, 0, -1});
-    scene.addQuad({-0.1f, -0.1f, -1}, {0.2f, 0, 0}, {0, 0.2f, 0}, scene.addDiffuse(glm::vec3(0.5f)));
-    return scene;
-}
-
 TEST(BlackLights, AreDroppedAndLeaveDarkness) {  // H55
     SceneDescription description = fixtures::scene();
     description.shapes = {fixtures::rectangle("wall"),
@@ -43,9 +35,7 @@ TEST(BlackLights, AreDroppedAndLeaveDarkness) {  // H55
 }
 
 HandScene fogUnderSun(float irradiance) {
-    HandScene scene;
-    scene.lookAlong({0.1f, 0.2f, -1});
-    scene.addBox({-2, -2, -4}, {2, 2, -2}, scene.addNull(scene.addHomogeneous(1, {0.9f, 0.7f, 0.5f}, 0.6f)));
+    HandScene scene = test::fogBox({0.9f, 0.7f, 0.5f});
     shared::Light sun{};
     sun.type = shared::kLightDirectional;
     sun.emission = irradiance * glm::vec3(1, 0.8f, 0.6f);
@@ -70,7 +60,7 @@ TEST(DirectionalLight, HalvesToTheBit) {  // H63; H71: and so for every power of
 
 TEST(TinyTriangleLight, ShinesLikeAPoint) {  // H64: 1e-6 units wide, 1.5 above the floor
     const float size = 1e-6f, radiance = 1e12f;
-    HandScene scene = floorScene();
+    HandScene scene = test::floorPatch();
     const glm::vec3 a{0, 0, 0.5f};
     scene.addTriangles(std::vector<glm::vec3>{a, a + glm::vec3(0, size, 0), a + glm::vec3(size, 0, 0)},
                        scene.addDiffuse(glm::vec3(0)));
@@ -108,7 +98,9 @@ TEST(PointsAtALight, StayBelowTheBoundOfTheBalanceHeuristic) {  // H65: fog that
     // f / p of the isotropic phase function is 1: at most Le from each of the two techniques.
     EXPECT_LE(largest, 2.00001f);
     EXPECT_GT(largest, 0.9f);
-    RecordProperty("light sampling alone", std::to_string(naive));
+    // By itself light sampling has no bound. Of heights h below 0.1 and points at r from the foot, 4 h / 4 pi d^3 is
+    // above 100 for one in 2700: 110 of these.
+    EXPECT_GT(naive, 100.0f);
 }
 
 TEST(PointLight, AtTheVertexItselfSendsNothing) {  // H43

@@ -96,6 +96,7 @@ TEST(Majorants, AThousandTimesTooHighCostOnlyTime) {  // H20
 TEST(NullCollisions, OfProbabilityZeroNeverDivide) {  // H19: density at its bound, for every uniform there is
     reference::Medium<float> grey{}, chromatic{};
     grey.grey = true;
+    grey.sigmaRatio = {1, 1, 1};
     chromatic.sigmaRatio = {0.25f, 1, 0};
     for (const float bound : {1.0f, 0.3f, 1e-3f, 1e30f})
         for (std::uint32_t word = 0; word < 1u << 24; ++word) {
@@ -122,7 +123,7 @@ TEST(Interpolation, NeverLeavesTheRangeOfItsVoxels) {  // H18: a negative null d
         const std::vector<float> voxels(8, value);
         medium.density = voxels.data();
         const glm::vec2 a = numbers.pair<float>();
-        const float found = reference::trilinearDensity(medium, 2.0f * glm::vec3(a, numbers.uniform<float>()));
+        const float found = reference::trilinearDensity(medium, 2.0f * glm::vec3(a, numbers.uniform<float>())).x;
         above += found > value;
         // The bound that compileScene builds: value (1 + 2^-20).
         ASSERT_LE(found, value * (1 + 0x1p-20f));

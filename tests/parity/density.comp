@@ -10,15 +10,12 @@ void probeItem() {
     switch (probeFunction) {
         case 0u: probeOutput(0u, vec4(densityVoxel(medium, uvec3(position)))); break;
         case 1u:
-            uvec3 corner = stochasticCorner(position, medium.resolution, u);
-            probeOutput(0u, vec4(corner, stochasticDensity(medium, position, u)));
-            probeOutput(1u, vec4(trilinearDensity(medium, position), densityAt(medium, position, u), 0.0, 0.0));
+            probeOutput(0u, vec4(stochasticCorner(position, medium.resolution, u), 0.0));
+            probeOutput(1u, vec4(trilinearDensity(medium, position), 0.0));
+            probeOutput(2u, vec4(densityAt(medium, position, u), 0.0));
             break;
         case 3u: probeOutput(0u, vec4(colorVoxel(medium, uvec3(position)), 0.0)); break;
-        case 4u:
-            probeOutput(0u, vec4(trilinearColor(medium, position), 0.0));
-            probeOutput(1u, vec4(colorDensityAt(medium, position, u), 0.0));
-            break;
+        case 4u: probeOutput(0u, vec4(voxelAt(medium, uvec3(position)), 0.0)); break;
         case 2u: probeOutput(0u, vec4(albedoAt(medium, position, u), 0.0)); break;
     }
 }

@@ -15,7 +15,8 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/density.comp";
-enum Function : std::uint32_t { kVoxel, kLookups, kAlbedo, kColorVoxel, kColorLookups };
+enum Function : std::uint32_t { kVoxel, kLookups, kAlbedo, kColorVoxel, kAnyVoxel };
+enum class Storage { Dense, Bricked, Colored };
 
 /// H23: grids of one voxel and one voxel thick, and a larger one; with albedo grids.
 test::HandScene gridScene() {
@@ -63,7 +64,23 @@ test::HandScene brickedScene() {
     return built;
 }
 
-class DensityParity : public testing::TestWithParam<bool> {
+/// The grids of gridScene, each with two more values a voxel.
+test::HandScene colorScene() {
+    test::HandScene built = gridScene();
+    Stress stress(21);
+    std::vector<float> interleaved;
+    for (const float value : built.scene.density)
+        for (const float channel : {value, stress.between(0, 1), stress.word() % 3 == 0 ? 0.0f : stress.between(0, 1)})
+            interleaved.push_back(channel);
+    built.scene.density = std::move(interleaved);
+    for (std::uint32_t m = 0; m < built.scene.constants.mediumCount; ++m) {
+        built.medium(m).flags |= shared::kMediumColorDensity;
+        built.medium(m).voxelOffset *= 3;
+    }
+    return built;
+}
+
+class DensityParity : public testing::TestWithParam<Storage> {
 protected:
     /// Positions in voxel units: outside, on faces, on and between voxel centres. Index in the fourth component.
     std::vector<glm::vec4> lookups() const {
@@ -87,7 +104,9 @@ protected:
     }
     std::uint32_t mediumOf(const glm::vec4& input) const { return glm::floatBitsToUint(input.w); }
 
-    test::HandScene built_ = GetParam() ? brickedScene() : gridScene();
+    bool isColored() const { return GetParam() == Storage::Colored; }
+
+    test::HandScene built_ = GetParam() == Storage::Bricked ? brickedScene() : isColored() ? colorScene() : gridScene();
     reference::SceneView<double> view_{built_.scene};
     Quality trilinear_ = [] {
         Quality quality;
@@ -104,19 +123,28 @@ TEST_P(DensityParity, EveryVoxelIsTheSame) {
             for (int y = 0; y < n.y; ++y)
                 for (int x = 0; x < n.x; ++x) inputs.emplace_back(x, y, z, glm::uintBitsToFloat(m));
     }
-    const auto outputs = test::SceneProbe(built_.scene).run(kShader, kVoxel, inputs);
-    Parity parity("volume/density", "densityVoxel", 0);
+    const auto values = test::SceneProbe(built_.scene).run(kShader, kAnyVoxel, inputs);
+    Parity any("volume/density", "voxelAt", 0);
     for (std::size_t i = 0; i < inputs.size(); ++i)
-        EXPECT_TRUE(parity.near(outputs[i].x,
-                                reference::densityVoxel(view_.media[mediumOf(inputs[i])], glm::ivec3(inputs[i]))));
+        EXPECT_TRUE(any.near(values[i], reference::voxelAt(view_.media[mediumOf(inputs[i])], glm::ivec3(inputs[i]))));
+    const auto outputs = test::SceneProbe(built_.scene).run(kShader, isColored() ? kColorVoxel : kVoxel, inputs);
+    Parity parity("volume/density", isColored() ? "colorVoxel" : "densityVoxel", 0);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const auto& medium = view_.media[mediumOf(inputs[i])];
+        const glm::ivec3 voxel(inputs[i]);
+        if (isColored())
+            EXPECT_TRUE(parity.near(outputs[i], reference::colorVoxel(medium, voxel)));
+        else
+            EXPECT_TRUE(parity.near(outputs[i].x, reference::densityVoxel(medium, voxel)));
+    }
 }
 
 // H18: nothing negative comes out; H74: no interpolation of 8 bits.
 TEST_P(DensityParity, LookupsAgreeInsideOnAndOutsideTheGridH18H74) {
     const auto inputs = lookups();
-    const auto stochastic = test::SceneProbe(built_.scene).run(kShader, kLookups, inputs, 2, 2);
-    const auto trilinear = test::SceneProbe(built_.scene, trilinear_).run(kShader, kLookups, inputs, 2, 2);
-    Parity corner("volume/density", "stochasticCorner", 0), one("volume/density", "stochasticDensity", 0);
+    const auto stochastic = test::SceneProbe(built_.scene).run(kShader, kLookups, inputs, 2, 3);
+    const auto trilinear = test::SceneProbe(built_.scene, trilinear_).run(kShader, kLookups, inputs, 2, 3);
+    Parity corner("volume/density", "stochasticCorner", 0);
     // Three interpolations of two products, a difference and a sum each; p - 0.5 and its fraction (of positions up to
     // 24 voxels, 2^-24 * 32 each) move each weight.
     Parity eight("volume/density", "trilinearDensity", 3 * (4 + 2 * 32)),
@@ -125,17 +153,16 @@ TEST_P(DensityParity, LookupsAgreeInsideOnAndOutsideTheGridH18H74) {
     for (std::size_t i = 0; i < inputs.size() / 2; ++i) {
         const auto& medium = view_.media[mediumOf(inputs[2 * i])];
         const glm::dvec3 p(inputs[2 * i]), u(inputs[2 * i + 1]);
-        const double smooth = reference::trilinearDensity(medium, p);
-        EXPECT_TRUE(eight.near(stochastic[2 * i + 1].x, smooth, 1)) << i;
-        EXPECT_TRUE(any.near(trilinear[2 * i + 1].y, smooth, 1)) << i;
-        EXPECT_GE(trilinear[2 * i + 1].y, 0.0f) << i;
+        const glm::dvec3 smooth = reference::trilinearDensity(medium, p);
+        EXPECT_TRUE(eight.near(stochastic[3 * i + 1], smooth, 1)) << i;
+        EXPECT_TRUE(any.near(trilinear[3 * i + 2], smooth, 1)) << i;
+        for (int c = 0; c < 3; ++c) EXPECT_GE(trilinear[3 * i + 2][c], 0.0f) << i;
         const glm::dvec3 gap = glm::abs(glm::fract(p - 0.5) - u);
         if (std::min({gap.x, gap.y, gap.z}) < 4e-6) continue;  // u decides within rounding of the fraction
         ++compared;
         const glm::ivec3 expected = glm::clamp(reference::stochasticCorner(p, u), glm::ivec3(0), medium.resolution - 1);
-        EXPECT_TRUE(corner.near(stochastic[2 * i], expected)) << i;
-        EXPECT_TRUE(one.near(stochastic[2 * i].w, reference::stochasticDensity(medium, p, u))) << i;
-        EXPECT_TRUE(any.near(stochastic[2 * i + 1].y, reference::densityAt(medium, p, u, true))) << i;
+        EXPECT_TRUE(corner.near(stochastic[3 * i], expected)) << i;
+        EXPECT_TRUE(any.near(stochastic[3 * i + 2], reference::densityAt(medium, p, u, true))) << i;
     }
     EXPECT_GT(compared, 10'000u);
 }
@@ -154,71 +181,13 @@ TEST_P(DensityParity, AlbedoIsThatOfTheSameCorner) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Storage, DensityParity, testing::Bool(),
-                         [](const auto& info) { return info.param ? "Bricked" : "Dense"; });
-
-/// The grids of gridScene, each with two more values a voxel.
-test::HandScene colorScene() {
-    test::HandScene built = gridScene();
-    Stress stress(21);
-    std::vector<float> interleaved;
-    for (const float value : built.scene.density)
-        for (const float channel : {value, stress.between(0, 1), stress.word() % 3 == 0 ? 0.0f : stress.between(0, 1)})
-            interleaved.push_back(channel);
-    built.scene.density = std::move(interleaved);
-    for (std::uint32_t m = 0; m < built.scene.constants.mediumCount; ++m) {
-        built.medium(m).flags |= shared::kMediumColorDensity;
-        built.medium(m).voxelOffset *= 3;
-    }
-    return built;
+std::string nameOf(const testing::TestParamInfo<Storage>& info) {
+    static constexpr const char* kNames[] = {"Dense", "Bricked", "Colored"};
+    return kNames[std::size_t(info.param)];
 }
 
-TEST(ColorDensityParity, LookupsOfThreeChannelsAgree) {
-    const test::HandScene built = colorScene();
-    const reference::SceneView<double> view(built.scene);
-    Quality quality;
-    quality.stochasticFilter = false;
-    std::vector<glm::vec4> inputs;
-    Stress stress(22);
-    for (std::uint32_t m = 0; m < view.media.size(); ++m)
-        for (int i = 0; i < 6'000; ++i) {
-            glm::vec3 p;
-            for (int axis = 0; axis < 3; ++axis)
-                p[axis] = stress.between(-2, float(view.media[m].resolution[axis]) + 2);
-            inputs.emplace_back(p, glm::uintBitsToFloat(m));
-            inputs.emplace_back(stress.between(0, 1), stress.between(0, 1), stress.between(0, 1), 0);
-        }
-    const auto stochastic = test::SceneProbe(built.scene).run(kShader, kColorLookups, inputs, 2, 2);
-    const auto smooth = test::SceneProbe(built.scene, quality).run(kShader, kColorLookups, inputs, 2, 2);
-    // As for one channel, above.
-    Parity eight("volume/density", "trilinearColor", 3 * (4 + 2 * 32)),
-        any("volume/density", "colorDensityAt", 3 * (4 + 2 * 32));
-    for (std::size_t i = 0; i < inputs.size() / 2; ++i) {
-        const auto& medium = view.media[glm::floatBitsToUint(inputs[2 * i].w)];
-        const glm::dvec3 p(inputs[2 * i]), u(inputs[2 * i + 1]);
-        EXPECT_TRUE(eight.near(stochastic[2 * i], reference::trilinearColor(medium, p), 1)) << i;
-        EXPECT_TRUE(any.near(smooth[2 * i + 1], reference::colorDensityAt(medium, p, u, false), 1)) << i;
-        const glm::dvec3 gap = glm::abs(glm::fract(p - 0.5) - u);
-        if (std::min({gap.x, gap.y, gap.z}) < 4e-6) continue;  // u decides within rounding of the fraction
-        EXPECT_TRUE(any.near(stochastic[2 * i + 1], reference::colorDensityAt(medium, p, u, true))) << i;
-    }
-}
-
-TEST(ColorDensityParity, EveryVoxelIsTheSame) {
-    const test::HandScene built = colorScene();
-    const reference::SceneView<double> view(built.scene);
-    std::vector<glm::vec4> inputs;
-    for (std::uint32_t m = 0; m < view.media.size(); ++m) {
-        const glm::ivec3 n = view.media[m].resolution;
-        for (int i = 0; i < n.x * n.y * n.z; ++i)
-            inputs.emplace_back(i % n.x, i / n.x % n.y, i / n.x / n.y, glm::uintBitsToFloat(m));
-    }
-    const auto outputs = test::SceneProbe(built.scene).run(kShader, kColorVoxel, inputs);
-    Parity parity("volume/density", "colorVoxel", 0);
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-        EXPECT_TRUE(parity.near(
-            outputs[i], reference::colorVoxel(view.media[glm::floatBitsToUint(inputs[i].w)], glm::ivec3(inputs[i]))));
-}
+INSTANTIATE_TEST_SUITE_P(Storage, DensityParity, testing::Values(Storage::Dense, Storage::Bricked, Storage::Colored),
+                         nameOf);
 
 }  // namespace
 }  // namespace parhelion

@@ -23,7 +23,8 @@
 //   knows to 2^-24 times the resolution (three roundings, each half an ulp of up to that).
 // - Events. Every event decides whether a collision comes before a plane or boundary, or on which side of an edge a ray
 //   passes: an optical depth or a coordinate of order 1 after 8 roundings, 8 * 2^-24.
-// - Ill-conditioned paths, which grazed a sphere, say: the reference in float is itself off by more than the tolerance.
+// - Ill-conditioned paths: the reference in float is itself off by more than the tolerance. How many those may be has a
+//   bound of its own (mostIllConditioned).
 // - Logarithms. The device's is within an ulp of libm's: 2^-24 of a depth of order 1 for each tentative collision.
 namespace parhelion::test {
 namespace {
@@ -55,20 +56,23 @@ struct PathPair {
 /// What sets the paths of a scene apart.
 struct Parity {
     std::size_t paths = 0;
-    double predicted = 0;                       ///< paths expected to diverge
+    double predicted = 0;                       ///< well-conditioned paths expected to diverge
+    std::size_t illConditioned = 0;             ///< paths whose reference in float differs from that in double
     std::size_t fromFloat = 0, fromDouble = 0;  ///< paths that differ from the reference by more than the tolerance
     double worst = 0;                           ///< of the others: largest difference, as a share of the tolerance
     double worstRelative = 0;                   ///< of the others: largest relative difference
     double bias = 0;                            ///< of the others: difference of the means, relative
     double divergedZ = 0;                       ///< sum of the diverged differences over the root of their squares
 
-    /// Divergence may be this frequent: three times the prediction, and chance.
+    /// Divergence may be this frequent: three times the prediction, and chance. Of ill-conditioned paths, too: which
+    /// ones rounding takes beyond the tolerance differs from one arithmetic to the next.
     double limit() const {
-        const boost::math::poisson distribution(3 * predicted);
+        const boost::math::poisson distribution(3 * (predicted + double(illConditioned)));
         return quantile(complement(distribution, kSignificance));
     }
-    bool passes() const {
-        return double(fromFloat) <= limit() && double(fromDouble) <= limit() && bias <= 8 * kUlp && divergedZ <= 5.4;
+    bool passes(double mostIllConditioned) const {
+        return double(illConditioned) <= mostIllConditioned && double(fromFloat) <= limit() &&
+               double(fromDouble) <= limit() && bias <= 8 * kUlp && divergedZ <= 5.4;
     }
 };
 
@@ -167,7 +171,8 @@ Parity compare(const std::vector<PathPair>& paths) {
         const double fromFloat = largest(abs(path.device - path.inFloat));
         const double fromDouble = largest(abs(path.device - path.inDouble));
         const bool known = largest(abs(glm::dvec3(path.inFloat) - path.inDouble)) <= tolerance;
-        parity.predicted += known ? path.predicted : 1;
+        parity.predicted += known ? path.predicted : 0;
+        parity.illConditioned += !known;
         parity.fromFloat += !(fromFloat <= tolerance);
         parity.fromDouble += !(fromDouble <= tolerance);
         const double signedDifference = path.device.y - path.inDouble.y;
@@ -185,18 +190,34 @@ Parity compare(const std::vector<PathPair>& paths) {
     return parity;
 }
 
+/// How many of a scene's paths may be ill-conditioned: what enlarges the few roundings of a place or direction beyond
+/// the tolerance, which is a few roundings for each event. Spheres do that to paths that graze them, and every edge to
+/// those that pass within rounding of it. Without textures no scene file or effect had more than 18 of 9216, 1 in 500,
+/// expected to diverge for whatever reason. A texture multiplies by its texels a unit and their contrast:
+/// - an edge between squares of scenes/checkerboard.xml, one texel of 64 wide: 2.2 % of its paths, of which 5 % may be;
+/// - a map's neighbouring texels anywhere, 512 / 2 pi of them a radian (scenes/bunny_under_sky.xml): 15 %; 25 % may be.
+/// Images of those scenes are compared by their bias, too.
+double mostIllConditioned(const CompiledScene& scene) {
+    const double paths = double(kSize.x) * kSize.y * std::size(kSampleIndices);
+    if (scene.effects.has(Effect::hasEnvironmentMap)) return paths / 4;
+    if (scene.effects.has(Effect::hasTextures) || scene.effects.has(Effect::hasTexturedLights)) return paths / 20;
+    return paths / 500;
+}
+
 std::string row(const std::string& name, const Parity& p) {
     const double n = double(p.paths);
     return fmt::format(
-        "{:40} {:6} paths, predicted {:.1e}, from float {:.1e}, from double {:.1e} (limit {:.1e}); others "
+        "{:40} {:6} paths, ill-conditioned {:.1e}, predicted {:.1e}, from float {:.1e}, from double {:.1e} (limit "
+        "{:.1e}); others "
         "{:.1e} at most, {:3.0f} % of the tolerance; mean off by {:.0e}\n",
-        name, p.paths, p.predicted / n, p.fromFloat / n, p.fromDouble / n, p.limit() / n, p.worstRelative,
-        100 * p.worst, p.bias);
+        name, p.paths, double(p.illConditioned) / n, p.predicted / n, p.fromFloat / n, p.fromDouble / n, p.limit() / n,
+        p.worstRelative, 100 * p.worst, p.bias);
 }
 
 void expectParity(const std::string& name, const CompiledScene& scene) {
     const Parity parity = compare(tracePaths(scene, scene));
     fmt::print("{}", row(name, parity));
+    EXPECT_LE(double(parity.illConditioned), mostIllConditioned(scene)) << row(name, parity);
     EXPECT_LE(double(parity.fromFloat), parity.limit()) << row(name, parity);
     EXPECT_LE(double(parity.fromDouble), parity.limit()) << row(name, parity);
     // 8 roundings in one direction: systematic errors are smaller than random ones.
@@ -222,7 +243,7 @@ TEST(ImageParity, SmallDefectsShow) {
         CompiledScene changed = scene;
         change(changed);
         const Parity parity = compare(tracePaths(scene, changed));
-        return std::pair(parity.passes(), row("defect", parity));
+        return std::pair(parity.passes(mostIllConditioned(scene)), row("defect", parity));
     };
     ASSERT_TRUE(withDefect([](CompiledScene&) {}).first);
     const std::pair<bool, std::string> results[] = {

@@ -23,8 +23,8 @@ void probeItem() {
         case 2u:  // origin; distance, cosine, light
             probeOutput(0u, vec4(lightPdf(scene.lights[uint(u.z)], position, u.x, u.y)));
             break;
-        case 3u:  // normal, light; outgoing
-            probeOutput(0u, vec4(lightCosine(scene.lights[uint(probeInput(0u).w)], position, u)));
+        case 3u:  // geometric normal, light; outgoing; shading normal
+            probeOutput(0u, vec4(lightCosine(scene.lights[uint(probeInput(0u).w)], position, probeInput(2u).xyz, u)));
             break;
     }
 }

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, DepthLayers, testing::ValuesIn(kBackend
                          [](const auto& info) { return name(info.param); });
 
 // Paths are the same but for the few that rounding sends another way (parity/image_parity_test: 1e-5 of them); a pixel
-// of 16 paths then differs with probability 2e-4, and one of 1280 pixels in 40 by chance less than 1e-6.
+// of 16 paths then differs with probability 2e-4, 0.26 of 1280 do on average, and more than 6 with a chance of 1e-8.
 TEST(DepthLayersParity, DeviceFollowsTheReference) {
     const CompiledScene scene = layeredScene();
     const Film a = renderOn(Backend::Vulkan, scene, 16), b = renderOn(Backend::Reference, scene, 16);
@@ -132,7 +132,7 @@ TEST(DepthLayersParity, DeviceFollowsTheReference) {
                                    1e-5 * (pixelMean(b, i, c) + 0.1);
         different += !same;
     }
-    EXPECT_LE(different, a.pixels.size() / 40);
+    EXPECT_LE(different, 6u);
 }
 
 // More pixels than the software driver takes at once: two batches, each with layers of its own.
@@ -146,7 +146,7 @@ TEST(DepthLayersBatches, LayersFollowTheirPixels) {
             if (isInterrupted) renderer.finishEarly();
         const Film film = renderer.film();
         ASSERT_GT(film.samples, 0u);
-        if (!isInterrupted) EXPECT_EQ(film.samples, 8u);
+        EXPECT_EQ(film.samples, isInterrupted ? film.samples : 8u);
         expectLayersSumToRadiance(film);
         for (const std::size_t i : {std::size_t(0), film.pixels.size() / 2, film.pixels.size() - 1})
             EXPECT_NEAR(layerMean(film, i, 0), 2, 1e-6) << isInterrupted;

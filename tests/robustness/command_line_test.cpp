@@ -71,6 +71,13 @@ std::vector<BadUsage> badUses() {
         badRender("OutputIsFolder", {"-o", "folder.exr"}, "folder.exr"),
         badRender("OutputBelowFile", {"-o", "scene.xml/image.exr"}, "scene.xml/image.exr"),
         badRender("OutputIsDevice", {"-o", "device.exr"}, "device.exr"),
+        badRender("OutputIsTheScene", {"-o", "link.exr"}, "--output: link.exr would replace scene.xml"),
+        badRender("PngIsTheScene", {"-o", "view.exr"}, "--output: view.png would replace scene.xml"),
+        {"ErrorReplacesImage", {"compare", "a.exr", "b.exr", "--error", "b.exr"}, "--error: b.exr would replace b.exr"},
+        {"PictureReplacesImage",
+         {"compare", "a.exr", "b_z.png", "--pictures", "./b"},
+         "--pictures: ./b_z.png would replace b_z.png"},
+        {"ConvertOntoItself", {"convert", "a.vol", "./a.vol"}, "OUT: ./a.vol would replace a.vol"},
         {"CompareMissing", {"compare", "a.exr", "b.exr"}, "a.exr"},
         {"CompareNoImage", {"compare", "scene.xml", "scene.xml"}, "scene.xml"},
         {"ConvertMissing", {"convert", "a.vol", "b.vol"}, "a.vol"},
@@ -86,6 +93,8 @@ TEST_P(CommandLine, RefusesBadUsage) {
     folder.write("scene.xml", SceneText{}.text());
     std::filesystem::create_directory(folder.path() / "folder.exr");
     std::filesystem::create_symlink("/dev/null", folder.path() / "device.exr");
+    for (const char* link : {"link.exr", "view.png"})
+        std::filesystem::create_symlink("scene.xml", folder.path() / link);
     const std::set<std::string> before = folder.names();
     const ProgramResult result = runProgram(PARHELION_PROGRAM, GetParam().arguments, folder.path());
     EXPECT_EQ(result.exitCode, 2) << result.error;

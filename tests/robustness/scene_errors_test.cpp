@@ -59,6 +59,11 @@ std::vector<BadText> badDirectives() {
              return sceneOf(text);
          }(),
          {"longer than 65536"}},
+    };
+}
+
+std::vector<BadText> badIncludes() {
+    return {
         {"MissingInclude", sceneOf("<include filename=\"@@no.xml\"/>"), {"no.xml", "not found"}},
         {"IncludesItself", sceneOf("<include filename=\"@@scene.xml\"/>"), {"includes itself"}},
         {"IncludeCycle",
@@ -75,6 +80,18 @@ std::vector<BadText> badDirectives() {
          sceneOf("<include filename=\"b.xml\"/>"),
          {"malformed XML"},
          {{"b.xml", "<scene version=\"3.0.0\">\n</@@shape>"}}},
+        {"VersionOfAnIncludedObject",
+         sceneOf("<include filename=\"b.xml\"/>"),
+         {"9.0.0"},
+         {{"b.xml", "<shape type=\"sphere\" version=\"@@9.0.0\"/>"}}},
+        {"NameOfAnIncludedScene",
+         sceneOf("<include filename=\"b.xml\" @@name=\"x\"/>"),
+         {"one object"},
+         {{"b.xml", "<scene version=\"3.0.0\"/>"}}},
+        {"PropertyInAnIncludedScene",
+         sphereOf("<include filename=\"b.xml\"/>"),
+         {"<float> is not allowed inside <scene>"},
+         {{"b.xml", "<scene version=\"3.0.0\">@@<float name=\"radius\" value=\"2\"/></scene>"}}},
         {"PathIsNoFolder", sceneOf("<path value=\"@@no/such\"/>"), {"must name a folder"}},
     };
 }
@@ -91,7 +108,12 @@ std::vector<BadText> badReferences() {
         {"AliasTaken", sceneOf("<bsdf type=\"diffuse\" id=\"a\"/><alias id=\"a\" as=\"@@a\"/>"), {"taken already"}},
         {"ReferenceToItself",
          sphereOf("<bsdf type=\"twosided\" id=\"a\">@@<ref id=\"a\"/></bsdf>"),
-         {"diffuse", "got \"twosided\""}},
+         {"circular reference: a -> a"}},
+        {"ReferencesInACircle",
+         sceneOf("<volume type=\"procedural_cloud\" id=\"a\"><ref id=\"b\"/></volume>"
+                 "<volume type=\"procedural_cloud\" id=\"b\"><ref id=\"c\"/></volume>"
+                 "<volume type=\"procedural_cloud\" id=\"c\">@@<ref id=\"d\"/></volume><alias id=\"a\" as=\"d\"/>"),
+         {"circular reference: a -> b -> c -> a"}},
         {"ReferenceOfWrongKind",
          sphereOf("@@<ref id=\"fog\"/>\n</shape><medium type=\"homogeneous\" id=\"fog\"/><shape type=\"cube\">"),
          {"interior", "exterior"}},
@@ -121,6 +143,7 @@ TEST_P(SceneError, NamesTheCauseAndItsPlace) { expectRefused(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Malformed, SceneError, testing::ValuesIn(malformedScenes()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Directives, SceneError, testing::ValuesIn(badDirectives()), nameOfBadText);
+INSTANTIATE_TEST_SUITE_P(Includes, SceneError, testing::ValuesIn(badIncludes()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(References, SceneError, testing::ValuesIn(badReferences()), nameOfBadText);
 INSTANTIATE_TEST_SUITE_P(Transforms, SceneError, testing::ValuesIn(badTransforms()), nameOfBadText);
 
@@ -133,6 +156,27 @@ TEST(SceneErrorScale, DoublingIncludesEndInAnError) {
     }
     files["f30.xml"] = "<scene version=\"3.0.0\"><shape type=\"sphere\"/></scene>";
     EXPECT_THROW(readText(sceneOf("<include filename=\"f0.xml\"/>"), {}, files), InputError);
+}
+
+TEST(SceneErrorScale, LongChainsOfReferencesDoNotRecurse) {
+    std::string chain;
+    for (int i = 0; i < 100'000; ++i)
+        chain += fmt::format("<volume type=\"procedural_cloud\" id=\"c{}\"><ref id=\"c{}\"/></volume>", i, i + 1);
+    chain += "<volume type=\"procedural_cloud\" id=\"c100000\"/>";
+    EXPECT_THROW(readText(sceneOf("<medium type=\"heterogeneous\"><ref id=\"c0\" name=\"sigma_t\"/></medium>" + chain)),
+                 InputError);
+}
+
+TEST(SceneErrorScale, SubstitutedValuesTogetherAreBounded) {
+    std::string body = "<default name=\"v\" value=\"" + std::string(60'000, '1') + "\"/>\n";
+    for (int i = 0; i < 1200; ++i) body += fmt::format("<default name=\"w{}\" value=\"$v\"/>\n", i);
+    try {
+        readText(sceneOf(body));
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("scene.xml:1121:"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("at most 67108864 characters"), std::string::npos) << error.what();
+    }
 }
 
 }  // namespace

@@ -128,6 +128,7 @@ std::vector<BadText> badSkies() {
 
 std::vector<BadText> badMedia() {
     return {
+        {"MisspeltScattering", mediumOf("@@<rgb name=\"sigma_sc\" value=\"1\"/>"), {"did you mean \"sigma_s\"?"}},
         {"MediumWithoutRole", sphereOf("@@<medium type=\"homogeneous\"/>"), {"interior", "exterior"}},
         {"NegativeExtinction",
          mediumOf("<float name=\"sigma_t\" value=\"@@-2\"/>"),
@@ -227,8 +228,10 @@ std::vector<BadText> badCameras() {
         {"ClipsCrossed",
          cameraOf("<float name=\"near_clip\" value=\"@@5\"/><float name=\"far_clip\" value=\"1\"/>"),
          {"less than"}},
+        {"ShutterCrossed",
+         cameraOf("<float name=\"shutter_open\" value=\"@@2\"/><float name=\"shutter_close\" value=\"1\"/>"),
+         {"at most"}},
         {"UnknownSensor", sceneOf("", kIntegrator + "<sensor type=\"@@thinlens\"/>"), {"perspective"}},
-        {"CameraInMedium", cameraOf("@@<medium type=\"homogeneous\"/>"), {"follows from the shapes"}},
     };
 }
 
@@ -244,7 +247,7 @@ std::vector<BadText> badFilmsAndIntegrators() {
         {"RadiusOfBox",
          filmOf("<rfilter type=\"box\">@@<float name=\"radius\" value=\"1\"/></rfilter>"),
          {"unknown property \"radius\""}},
-        {"UnknownFileFormat", filmOf("<string name=\"file_format\" value=\"@@pfm\"/>"), {"openexr"}},
+        {"UnknownFileFormat", filmOf("<string name=\"file_format\" value=\"@@png\"/>"), {"openexr"}},
         {"NoSamples",
          cameraOf("<sampler type=\"independent\"><integer name=\"sample_count\" value=\"@@0\"/></sampler>"),
          {"got 0"}},
@@ -257,6 +260,12 @@ std::vector<BadText> badFilmsAndIntegrators() {
          {"not supported", "albedo, normal and depth"}},
         {"UnknownIntegrator", sceneOf("", "<integrator type=\"@@ptracer\"/>" + kSensor), {"path, volpath"}},
         {"EmptyMoment", sceneOf("", "@@<integrator type=\"moment\"/>" + kSensor), {"nested <integrator>"}},
+        {"MomentOfAMoment",
+         sceneOf("", "<integrator type=\"moment\">@@<integrator type=\"moment\"/></integrator>" + kSensor),
+         {"cannot hold another \"moment\""}},
+        {"SpectralMisOfVolpath",
+         integratorOf("@@<boolean name=\"use_spectral_mis\" value=\"true\"/>"),
+         {"unknown property"}},
     };
 }
 

@@ -160,11 +160,21 @@ TEST(BitmapWithoutLight, NamesItsTexel) {
     }
 }
 
+TEST(HugeBitmap, IsRefusedWhateverItsFormat) {
+    const TemporaryFolder folder;
+    writeExr(folder.path() / "wide.exr", pictureOf({kMaxBitmapSize + 1, 1}));
+    folder.write("wide.hdr", kHdrHead + "-Y 1 +X 65537\n");
+    EXPECT_NE(errorOf(folder.path() / "wide.exr").find("at most 65536 texels a side; got 65537 x 1"),
+              std::string::npos);
+    EXPECT_NE(errorOf(folder.path() / "wide.hdr").find("65536"), std::string::npos);
+}
+
 TEST(BitmapWithoutColor, IsRefused) {
     const TemporaryFolder folder;
     Image image{.size = {1, 1}, .channels = {{"depth", {1.0f}}}, .attributes = {}};
     writeExr(folder.path() / "depth.exr", image);
-    EXPECT_NE(errorOf(folder.path() / "depth.exr").find("R, G and B, or Y"), std::string::npos);
+    EXPECT_NE(errorOf(folder.path() / "depth.exr").find("R, G and B; X, Y and Z; Y, RY and BY; or Y"),
+              std::string::npos);
     EXPECT_NE(errorOf(folder.write("text.png", "no picture")).find(".exr, .hdr, .png or .jpg"), std::string::npos);
 }
 

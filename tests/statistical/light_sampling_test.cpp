@@ -5,7 +5,7 @@
 
 #include "reference/light/light.h"
 #include "support/goodness.h"
-#include "support/hand_scene.h"
+#include "support/light_scenes.h"
 #include "unit/compile_fixtures.h"
 
 // Sampled directions against where they must lie by geometry, and lightPdf against the same by quadrature.
@@ -15,7 +15,10 @@ namespace {
 using test::CellTest;
 using test::HandScene;
 using test::IndependentNumbers;
+using test::meshLight;
 using test::partOf;
+using test::quadLight;
+using test::sphereLight;
 
 using Gauss = boost::math::quadrature::gauss<double, 20>;
 
@@ -23,15 +26,10 @@ double significance() { return sidak(test::kFamilySignificance, 20); }
 
 glm::vec3 lightPoint(const glm::vec3& u) { return {0, u.y, u.z}; }
 
-/// A sheared quad that faces the origin from above.
-HandScene quadLight() {
-    HandScene scene;
-    const std::uint32_t shape = scene.addDiffuse(glm::vec3(0));
-    const std::uint32_t quad = scene.addQuad({0.4f, -0.5f, 1.1f}, {-0.2f, 1.3f, 0.1f}, {0.9f, 0.3f, 0.2f}, shape);
-    scene.addAreaLight(shared::kLightQuad, quad, shape, glm::vec3(1));
-    if (scene.scene.constants.quads[0].normal.z > 0)
-        scene.scene.constants.quads[0].normal = -scene.scene.constants.quads[0].normal;
-    return scene;
+/// lightPdf of a flat light.
+double pdfOf(const SceneView<double>& view, const Light<double>& light, const glm::dvec3& origin,
+             const glm::dvec3& direction, double distance, const glm::dvec3& normal) {
+    return lightPdf(view, light, origin, direction, distance, lightCosine(light, normal, normal, -direction));
 }
 
 /// Where on the quad a direction from `position` leads, as (u, v), solved in double.
@@ -43,19 +41,20 @@ glm::dvec2 quadParameters(const shared::Quad& quad, const glm::dvec3& position, 
 TEST(LightSampling, QuadsAreUniformOverTheirArea) {
     const HandScene scene = quadLight();
     const SceneView<float> view(scene.scene);
-    const auto run = [&](auto bend) {
+    const auto run = [&](const glm::dvec2& bends) {
         CellTest cells(36, significance());
         IndependentNumbers numbers(1);
         for (std::uint64_t i = cells.samplesNeeded(); i > 0; --i) {
-            const glm::vec2 u = bend(numbers.pair<float>());
-            const auto sample = sampleLight(view, glm::vec3(0.1f), lightPoint({0, u.x, u.y}));
-            const auto at = quadParameters(scene.scene.constants.quads[0], glm::dvec3(0.1f), sample->direction);
+            const glm::vec3 u = lightPoint({0, test::bent(numbers.pair<float>(), bends)});
+            const auto sample = sampleLight(view, glm::vec3(0.1f), u).value();
+            const auto at = quadParameters(scene.scene.constants.quads[0], glm::dvec3(0.1f), sample.direction);
             cells.add(partOf(at.x, 6) * 6 + partOf(at.y, 6));
         }
         return cells;
     };
-    run([](const glm::vec2& u) { return u; }).expectFit("quad");
-    run([](const glm::vec2& u) { return glm::vec2(u.x + 0.02f * u.x * (1 - u.x), u.y); }).expectMisfit("bent by 2 %");
+    run({0, 0}).expectFit("quad");
+    run({0.02, 0}).expectMisfit("quad, u bent by 2 %");
+    run({0, 0.02}).expectMisfit("quad, v bent by 2 %");
 }
 
 TEST(LightSampling, DensityOfQuadsIntegratesToTheShareOfEveryCell) {
@@ -69,7 +68,7 @@ TEST(LightSampling, DensityOfQuadsIntegratesToTheShareOfEveryCell) {
         const double distance = glm::length(point);
         const glm::dvec3 direction = point / distance;
         const double solidAngle = std::abs(glm::dot(areaVector, direction)) / (distance * distance);
-        return solidAngle * lightPdf(view, view.lights[0], glm::dvec3(0), direction, distance, quad.normal);
+        return solidAngle * pdfOf(view, view.lights[0], glm::dvec3(0), direction, distance, quad.normal);
     };
     for (int i = 0; i < 9; ++i) {
         const double u0 = i / 3 / 3.0, v0 = i % 3 / 3.0;
@@ -100,21 +99,30 @@ TEST(LightSampling, SampledAndEvaluatedDensitiesAreOne) {
         const Light<double>& light = view.lights[selectLight(view, first)];
         glm::dvec3 normal = -sample->direction;
         if (light.type != shared::kLightSphere && sample->target != kNone) normal = flatNormal(view, sample->target);
-        const double pdf = lightPdf(view, light, position, sample->direction, sample->distance, normal);
+        const double pdf = pdfOf(view, light, position, sample->direction, sample->distance, normal);
         ASSERT_NEAR(pdf / sample->pdf, 1, 1e-9) << light.type;
         ++compared;
     }
     EXPECT_GT(compared, 50'000);
 }
 
-/// A quad and a mesh that face the origin from below, or turn their backs on it.
+/// A quad and a mesh, of which the quad and a triangle face the origin, or turn their backs on it, and the other
+/// triangle the other way round.
 HandScene quadAndMesh(bool isTurned, bool isTwoSided) {
     HandScene scene = quadLight();
     std::vector<glm::vec3> vertices{{-2, 0, 2}, {0, 3, 2}, {-3, 0, 2.5f}, {0, 2, -3}, {1, 2, -3}, {0, 3, -3}};
-    scene.addTriangles(vertices, scene.addDiffuse(glm::vec3(0), isTurned ? shared::kShapeFlipNormal : 0u));
+    scene.addTriangles(vertices, scene.addDiffuse(glm::vec3(0)));
     scene.addMeshLight(1, glm::vec3(1));
     shared::SceneConstants& constants = scene.scene.constants;
-    if (isTurned) constants.quads[0].normal = -constants.quads[0].normal;
+    if (isTurned) {
+        constants.quads[0].normal = -constants.quads[0].normal;
+        // By shading normals, which say where the front is: the same numbers then find the same points.
+        const std::vector<glm::vec4>& v = scene.scene.triangles;
+        for (std::size_t i = 0; i < v.size(); i += 3)
+            scene.scene.vertexNormals.insert(
+                scene.scene.vertexNormals.end(), 3,
+                glm::vec4(glm::cross(glm::vec3(v[i + 2] - v[i]), glm::vec3(v[i + 1] - v[i])), 0));
+    }
     for (unsigned i = 0; i < 2 && isTwoSided; ++i) constants.lights[i].flags |= shared::kLightTwoSided;
     return scene;
 }
@@ -126,35 +134,29 @@ TEST(LightSampling, TwoSidesAreSampledAsTheFrontIs) {
     const SceneView<double> views[] = {SceneView<double>(both.scene), SceneView<double>(back.scene)};
     const SceneView<double> oneSided(front.scene), turned(dark.scene);
     IndependentNumbers numbers(7);
-    int seen = 0;
+    int fromFront = 0, fromBehind = 0;
     for (int i = 0; i < 10'000; ++i) {
         const glm::dvec3 u(numbers.uniform<double>(), numbers.pair<double>());
         const glm::dvec3 origin(0);
-        auto expected = sampleLight(oneSided, origin, u);
-        const auto fromBehind = sampleLight(turned, origin, u);
-        EXPECT_NE(expected.has_value(), fromBehind.has_value()) << "one side or the other";
-        if (!expected) expected = fromBehind;
-        ++seen;
+        const auto inFront = sampleLight(oneSided, origin, u), behind = sampleLight(turned, origin, u);
+        ASSERT_NE(inFront.has_value(), behind.has_value()) << "one side or the other";
+        const auto expected = inFront ? *inFront : *behind;
+        ++(inFront ? fromFront : fromBehind);
         for (const SceneView<double>& view : views) {
             const auto sample = sampleLight(view, origin, u);
             ASSERT_TRUE(sample);
-            EXPECT_EQ(sample->direction, expected->direction);
-            EXPECT_EQ(sample->pdf, expected->pdf);
-            EXPECT_EQ(sample->radianceOverPdf, expected->radianceOverPdf);
+            EXPECT_EQ(sample->direction, expected.direction);
+            EXPECT_EQ(sample->pdf, expected.pdf);
+            EXPECT_EQ(sample->radianceOverPdf, expected.radianceOverPdf);
             const Light<double>& light = view.lights[selectLight(view, u.x)];
-            EXPECT_EQ(
-                lightPdf(view, light, origin, sample->direction, sample->distance, flatNormal(view, sample->target)),
-                lightPdf(view, light, origin, sample->direction, sample->distance, -flatNormal(view, sample->target)));
+            const glm::dvec3 normal = flatNormal(view, sample->target);
+            EXPECT_EQ(pdfOf(view, light, origin, sample->direction, sample->distance, normal),
+                      pdfOf(view, light, origin, sample->direction, sample->distance, -normal));
         }
     }
-    EXPECT_EQ(seen, 10'000);
-}
-
-HandScene sphereLight(float radius) {
-    HandScene scene;
-    const std::uint32_t shape = scene.addDiffuse(glm::vec3(0));
-    scene.addAreaLight(shared::kLightSphere, scene.addSphere({0, 0, 2}, radius, shape), shape, glm::vec3(1));
-    return scene;
+    // The triangle that turns the other way has 7/9 of the mesh's area: 39 % of the samples.
+    EXPECT_GT(fromFront, 5'500);
+    EXPECT_GT(fromBehind, 3'500);
 }
 
 TEST(LightSampling, SpheresAreUniformOverTheirVisibleCone) {
@@ -166,7 +168,7 @@ TEST(LightSampling, SpheresAreUniformOverTheirVisibleCone) {
         IndependentNumbers numbers(3);
         for (std::uint64_t i = cells.samplesNeeded(); i > 0; --i) {
             const glm::vec2 u = numbers.pair<float>();
-            const glm::dvec3 d(sampleLight(view, glm::vec3(0), lightPoint({0, u}))->direction);
+            const glm::dvec3 d(sampleLight(view, glm::vec3(0), lightPoint({0, u})).value().direction);
             const double sin2 = d.x * d.x + d.y * d.y, oneMinusCos = sin2 / (1 + std::sqrt(std::max(0.0, 1 - sin2)));
             const std::size_t turn = partOf(test::turnOf(d.x, d.y), 3);
             cells.add(partOf(oneMinusCos / width, 6) * 3 + turn);
@@ -176,40 +178,66 @@ TEST(LightSampling, SpheresAreUniformOverTheirVisibleCone) {
         tooWide.expectMisfit("cone off by 2 %");
         // The pdf over the cone of half angle asin(radius / distance).
         const SceneView<double> exact(scene.scene);
-        const double pdf =
-            lightPdf(exact, exact.lights[0], glm::dvec3(0), glm::dvec3(0, 0, 1), 2.0, glm::dvec3(0, 0, -1));
+        const double pdf = pdfOf(exact, exact.lights[0], glm::dvec3(0), glm::dvec3(0, 0, 1), 2.0, glm::dvec3(0, 0, -1));
         EXPECT_NEAR(pdf * 2 * kPi<double> * width, 1, 1e-6);
     }
     const HandScene around = sphereLight(3);
     EXPECT_FALSE(sampleLight(SceneView<float>(around.scene), glm::vec3(0), glm::vec3(0, 0.3f, 0.4f)));
 }
 
+/// Where on the mesh a sample lies, in double: the triangle, and the shares of its base and of its height.
+struct MeshPoint {
+    int triangle;
+    double base, height;
+};
+MeshPoint meshPoint(const SceneView<float>& view, const glm::vec3& u) {
+    const glm::dvec3 d(sampleLight(view, glm::vec3(0), u).value().direction);
+    const double x = 2 * d.x / d.z, y = 2 * d.y / d.z;
+    const int i = std::min(int(x), 3);
+    return {i, (x - i) / double(test::kTriangleBase), y / (i + 1)};
+}
+
 TEST(LightSampling, MeshTrianglesAreChosenByArea) {
-    // Four triangles of areas 1 : 2 : 3 : 4 side by side, facing the origin.
-    HandScene scene;
-    std::vector<glm::vec3> vertices;
-    for (int i = 0; i < 4; ++i)
-        for (const glm::vec3 p : {glm::vec3(0, 0, 2), glm::vec3(0, float(i + 1), 2), glm::vec3(0.9f, 0, 2)})
-            vertices.push_back(p + glm::vec3(float(i), 0, 0));
-    scene.addTriangles(vertices, scene.addDiffuse(glm::vec3(0)));
-    scene.addMeshLight(0, glm::vec3(1));
-    const SceneView<float> view(scene.scene);
+    const HandScene scene = meshLight();
     std::vector<double> shares;
     for (int i = 0; i < 4; ++i)
         for (int half = 0; half < 2; ++half) shares.push_back((i + 1) / 10.0 * (half == 0 ? 0.75 : 0.25));
-    CellTest cells(shares, significance()), even(shares, significance());
-    IndependentNumbers numbers(4);
-    for (std::uint64_t n = cells.samplesNeeded(); n > 0; --n) {
-        const float u = numbers.uniform<float>();
-        const glm::dvec3 d(sampleLight(view, glm::vec3(0), glm::vec3(u, numbers.pair<float>()))->direction);
-        const double x = 2 * d.x / d.z;
-        const int i = std::min(int(x), 3);
-        // Left of the middle of its base a right triangle has three quarters of its area.
-        cells.add(std::size_t(2 * i) + (x - i > 0.45 ? 1u : 0u));
-        even.add(std::size_t(2 * partOf(u, 4)) + (x - i > 0.45 ? 1u : 0u));
-    }
-    cells.expectFit("mesh");
-    even.expectMisfit("every triangle as often");
+    const auto run = [&](const CompiledScene& compiled) {
+        const SceneView<float> view(compiled);
+        CellTest cells(shares, significance());
+        IndependentNumbers numbers(4);
+        for (std::uint64_t n = cells.samplesNeeded(); n > 0; --n) {
+            const float u = numbers.uniform<float>();
+            const MeshPoint point = meshPoint(view, glm::vec3(u, numbers.pair<float>()));
+            // Left of the middle of its base a right triangle has three quarters of its area.
+            cells.add(std::size_t(2 * point.triangle) + (point.base > 0.5 ? 1u : 0u));
+        }
+        return cells;
+    };
+    run(scene.scene).expectFit("mesh");
+    CompiledScene even = scene.scene, off = scene.scene;
+    even.lightTriangleCdf = {0.25f, 0.5f, 0.75f, 1};
+    off.lightTriangleCdf[1] *= 1.02f;
+    run(even).expectMisfit("every triangle as often");
+    run(off).expectMisfit("one bound off by 2 %");
+}
+
+TEST(LightSampling, MeshesAreUniformWithinTheirTriangles) {
+    const HandScene scene = meshLight();
+    const SceneView<float> view(scene.scene);
+    const auto run = [&](const glm::dvec2& bends) {
+        CellTest cells(36, significance());
+        IndependentNumbers numbers(8);
+        for (std::uint64_t n = cells.samplesNeeded(); n > 0; --n) {
+            const float u = numbers.uniform<float>();
+            const MeshPoint point = meshPoint(view, glm::vec3(u, test::bent(numbers.pair<float>(), bends)));
+            cells.add(test::triangleCell(point.base, point.height));
+        }
+        return cells;
+    };
+    run({0, 0}).expectFit("within triangles");
+    run({0.02, 0}).expectMisfit("within triangles, first number bent by 2 %");
+    run({0, 0.02}).expectMisfit("within triangles, second number bent by 2 %");
 }
 
 TEST(LightSampling, LightsAreSelectedAsTheCompilerSays) {
@@ -223,19 +251,22 @@ TEST(LightSampling, LightsAreSelectedAsTheCompilerSays) {
         description.emitters.push_back(bulb);
     }
     const CompiledScene compiled = compileScene(description);
-    const SceneView<float> view(compiled);
-    std::vector<double> shares, even(3, 1 / 3.0);
+    std::vector<double> shares;
     for (const double power : {1.0, 2.0, 5.0}) shares.push_back(0.5 / 3 + 0.5 * power / 8);
-    CellTest cells(shares, significance()), defect(even, significance());
-    IndependentNumbers numbers(5);
-    for (std::uint64_t i = cells.samplesNeeded(); i > 0; --i) {
-        const std::size_t chosen = selectLight(view, numbers.uniform<float>());
-        cells.add(chosen);
-        defect.add(chosen);
-        ASSERT_NEAR(double(view.lights[chosen].selection), shares[chosen], 1e-6);
-    }
-    cells.expectFit("selection");
-    defect.expectMisfit("even selection");
+    const auto run = [&](std::size_t index, float factor) {
+        SceneView<float> view(compiled);
+        view.lights.at(index).cumulative *= factor;
+        CellTest cells(shares, significance());
+        IndependentNumbers numbers(5);
+        for (std::uint64_t i = cells.samplesNeeded(); i > 0; --i)
+            cells.add(selectLight(view, numbers.uniform<float>()));
+        return cells;
+    };
+    run(0, 1).expectFit("selection");
+    run(0, 1.02f).expectMisfit("first light's bound off by 2 %");
+    run(1, 1.02f).expectMisfit("second light's bound off by 2 %");
+    const SceneView<float> view(compiled);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(double(view.lights[i].selection), shares[i], 1e-6);
 }
 
 TEST(LightSampling, EnvironmentIsUniform) {
@@ -246,11 +277,11 @@ TEST(LightSampling, EnvironmentIsUniform) {
     CellTest cells(18, significance()), tilted(18, significance());
     IndependentNumbers numbers(6);
     for (std::uint64_t i = cells.samplesNeeded(); i > 0; --i) {
-        const auto sample = sampleLight(view, glm::vec3(1), lightPoint({0, numbers.pair<float>()}));
-        const glm::dvec3 d(sample->direction);
+        const auto sample = sampleLight(view, glm::vec3(1), lightPoint({0, numbers.pair<float>()})).value();
+        const glm::dvec3 d(sample.direction);
         cells.add(partOf((1 - d.z) / 2, 6) * 3 + partOf(test::turnOf(d.x, d.y), 3));
         tilted.add(partOf((1 - d.z) / 2 + 0.01 * (1 - d.z * d.z), 6) * 3 + partOf(test::turnOf(d.x, d.y), 3));
-        ASSERT_NEAR(double(sample->pdf) * 4 * kPi<double>, 1, 1e-6);
+        ASSERT_NEAR(double(sample.pdf) * 4 * kPi<double>, 1, 1e-6);
     }
     cells.expectFit("environment");
     tilted.expectMisfit("denser towards a pole by 1 %");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "reference/reference_renderer.h"
 #include "support/hand_scene.h"
@@ -10,6 +11,7 @@
 namespace parhelion {
 namespace {
 
+using test::floorPatch;
 using test::HandScene;
 using test::PixelEstimate;
 
@@ -22,19 +24,11 @@ void expectValue(const PixelEstimate& a, double exact, const std::string& what) 
         << what << ": " << a.mean << " +- " << a.error << ", exact " << exact;
 }
 
-/// A patch of floor that faces up, below the camera that looks at its middle.
-HandScene floorScene(glm::vec3 reflectance, float distance = 1) {
-    HandScene scene;
-    scene.lookAlong({0, 0, -1});
-    scene.addQuad({-0.1f, -0.1f, -distance}, {0.2f, 0, 0}, {0, 0.2f, 0}, scene.addDiffuse(reflectance));
-    return scene;
-}
-
 enum class Method { Scattering, Both };
 
 /// The unit square, 1 above the floor, that shines down; the camera is half-way between.
 HandScene unitSquare(Method method, bool asMesh) {
-    HandScene scene = floorScene(glm::vec3(1), 0.5f);
+    HandScene scene = floorPatch(glm::vec3(1), 0.5f);
     const std::uint32_t shape = scene.addDiffuse(glm::vec3(0));
     const bool isSampled = method == Method::Both;
     if (asMesh) {
@@ -61,7 +55,8 @@ TEST(ReferenceLight, UnitSquareHasItsFormFactor) {
 HandScene turnedOver(HandScene scene, bool isTwoSided) {
     shared::SceneConstants& constants = scene.scene.constants;
     constants.quads[1].normal = -constants.quads[1].normal;
-    scene.scene.shapes[1].flags |= shared::kShapeFlipNormal;  // of the mesh
+    auto& triangles = scene.scene.triangles;
+    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) std::swap(triangles[i + 1], triangles[i + 2]);
     if (isTwoSided) constants.lights[0].flags |= shared::kLightTwoSided;
     return scene;
 }
@@ -81,7 +76,7 @@ TEST(ReferenceLight, TwoSidedSphereIsAFurnaceFromInside) {
     // The camera and a floor of reflectance 1/2 within a sphere of radiance 2; nothing else reflects.
     for (const Method method : {Method::Scattering, Method::Both})
         for (const bool isFlipped : {false, true}) {
-            HandScene scene = floorScene(glm::vec3(0.5f));
+            HandScene scene = floorPatch(glm::vec3(0.5f));
             const std::uint32_t shape = scene.addDiffuse(glm::vec3(0), isFlipped ? shared::kShapeFlipNormal : 0u);
             const std::uint32_t id = scene.addSphere({0, 0, 0.5f}, 3, shape);
             scene.addAreaLight(shared::kLightSphere, id, shape, glm::vec3(2), method == Method::Both);
@@ -108,7 +103,7 @@ TEST(ReferenceLight, SpheresLightLikeTheirConeHoweverSmallOrLarge) {
     for (const float radius : {1e-4f, 0.3f, 1.9f})
         for (const Method method : {Method::Scattering, Method::Both}) {
             if (method == Method::Scattering && radius < 0.01f) continue;
-            HandScene scene = floorScene(glm::vec3(0.5f));
+            HandScene scene = floorPatch(glm::vec3(0.5f));
             const std::uint32_t shape = scene.addDiffuse(glm::vec3(0));
             // The camera is at distance 1 from the floor; the light begins 2 above it.
             const std::uint32_t id = scene.addSphere({0, 0, 1 + radius}, radius, shape);
@@ -121,7 +116,7 @@ TEST(ReferenceLight, SpheresLightLikeTheirConeHoweverSmallOrLarge) {
 
 TEST(ReferenceLight, PointAndDirectionalLightsFollowTheirLaws) {  // H63
     for (const bool isPoint : {true, false}) {
-        HandScene scene = floorScene(glm::vec3(0.8f));
+        HandScene scene = floorPatch(glm::vec3(0.8f));
         shared::Light light{};
         light.texture = shared::kNone;
         light.type = isPoint ? shared::kLightPoint : shared::kLightDirectional;
@@ -135,7 +130,7 @@ TEST(ReferenceLight, PointAndDirectionalLightsFollowTheirLaws) {  // H63
 
 TEST(ReferenceLight, SeveralLightsAddUp) {
     const auto scene = [](bool first, bool second) {
-        HandScene scene = floorScene(glm::vec3(0.8f));
+        HandScene scene = floorPatch(glm::vec3(0.8f));
         const std::uint32_t shape = scene.addDiffuse(glm::vec3(0));
         if (first) {
             const std::uint32_t quad = scene.addQuad({0.5f, -0.5f, 0.5f}, {0, 1, 0}, {1, 0, 0}, shape);

@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "reference/reference_renderer.h"
-#include "support/hand_scene.h"
+#include "support/tracked_medium.h"
 
 namespace parhelion {
 namespace {
 
 using test::HandScene;
+using test::lumpyVoxels;
 using test::PixelEstimate;
 
 // |z| for a family of 1e-6 over the dozen comparisons of a test.
@@ -25,20 +26,8 @@ void expectValue(const PixelEstimate& a, double exact, const std::string& what) 
         << what << ": " << a.mean << " +- " << a.error << ", exact " << exact;
 }
 
-constexpr glm::uvec3 kResolution{20, 9, 17};
+constexpr glm::uvec3 kResolution = test::kLumpyResolution;
 constexpr glm::vec3 kLow{-2, -1.5f, -5}, kHigh{2, 1.5f, -2};
-
-/// Voxels in [0, 1] with empty stretches, different in every direction.
-std::vector<float> lumps() {
-    std::vector<float> voxels;
-    for (unsigned z = 0; z < kResolution.z; ++z)
-        for (unsigned y = 0; y < kResolution.y; ++y)
-            for (unsigned x = 0; x < kResolution.x; ++x) {
-                const float wave = std::sin(0.9f * float(x)) * std::cos(0.7f * float(y)) + std::sin(0.5f * float(z));
-                voxels.push_back(std::max(0.0f, wave / 2));
-            }
-    return voxels;
-}
 
 float voxel(const std::vector<float>& voxels, glm::ivec3 i) {
     i = glm::clamp(i, glm::ivec3(0), glm::ivec3(kResolution) - 1);
@@ -83,7 +72,7 @@ const std::vector<glm::vec3> kDirections{{0, 0, -1}, {0.3f, 0.1f, -1}, {-0.2f, 0
 
 TEST(ReferenceGrid, FlightsSeeTheTransmittanceOfTheInterpolatedDensity) {
     // Black medium: the sky seen through it is exactly the transmittance.
-    const std::vector<float> voxels = lumps();
+    const std::vector<float> voxels = lumpyVoxels();
     for (const glm::vec3 direction : kDirections) {
         const double exact = std::exp(-opticalDepth(voxels, glm::normalize(glm::dvec3(direction)), 2));
         HandScene scene = gridScene(2, glm::vec3(0), voxels, direction);
@@ -94,7 +83,7 @@ TEST(ReferenceGrid, FlightsSeeTheTransmittanceOfTheInterpolatedDensity) {
 
 TEST(ReferenceGrid, ShadowRaysSeeTheTransmittanceOfTheInterpolatedDensity) {
     // A white wall seen through nothing, lit through the grid by a directional light: E T / pi.
-    const std::vector<float> voxels = lumps();
+    const std::vector<float> voxels = lumpyVoxels();
     for (const glm::vec3 direction : kDirections)
         for (const float roulette : {0.0f, 3.0f}) {
             HandScene scene;
@@ -123,7 +112,7 @@ TEST(ReferenceGrid, ShadowRaysSeeTheTransmittanceOfTheInterpolatedDensity) {
 }
 
 TEST(ReferenceGrid, LookupsOfOneAndOfEightVoxelsHaveTheSameMean) {
-    HandScene scene = gridScene(4, glm::vec3(0.9f), lumps(), {0.3f, 0.1f, -1});
+    HandScene scene = gridScene(4, glm::vec3(0.9f), lumpyVoxels(), {0.3f, 0.1f, -1});
     scene.setEnvironment({1, 1, 1});
     RenderSettings settings;
     settings.sampleCount = 200000;
@@ -148,7 +137,7 @@ TEST(ReferenceGrid, ConstantDensityIsTheHomogeneousMedium) {  // H24, H23
 }
 
 TEST(ReferenceGrid, BricksHoldTheSameAsTheDenseArray) {
-    const std::vector<float> voxels = lumps();
+    const std::vector<float> voxels = lumpyVoxels();
     HandScene dense = gridScene(4, glm::vec3(0.9f), voxels, {0.3f, 0.1f, -1});
     HandScene bricked = dense;
     shared::Medium& medium = bricked.medium(0);
@@ -172,7 +161,7 @@ TEST(ReferenceGrid, BricksHoldTheSameAsTheDenseArray) {
 }
 
 TEST(ReferenceGrid, BoundsBelowTheDensityAreCounted) {  // H17
-    HandScene scene = gridScene(4, glm::vec3(0.9f), lumps(), {0.3f, 0.1f, -1}, 0.9f);
+    HandScene scene = gridScene(4, glm::vec3(0.9f), lumpyVoxels(), {0.3f, 0.1f, -1}, 0.9f);
     RenderSettings settings;
     settings.sampleCount = 10000;
     EXPECT_GT(reference::render<float>(scene.scene, settings).counters[shared::kCounterMajorantViolations], 0u);
@@ -180,7 +169,7 @@ TEST(ReferenceGrid, BoundsBelowTheDensityAreCounted) {  // H17
 
 /// Albedo `near` in the half of the box nearer to the camera, `far` in the other, linear between the voxel centres.
 HandScene withAlbedoGrid(float near, float far) {
-    HandScene scene = gridScene(3, glm::vec3(0.1f), lumps(), {0.1f, 0.1f, -1});
+    HandScene scene = gridScene(3, glm::vec3(0.1f), lumpyVoxels(), {0.1f, 0.1f, -1});
     shared::Medium& medium = scene.medium(0);
     medium.flags |= shared::kMediumAlbedoGrid;
     medium.albedoResolution = {1, 1, 2};
@@ -191,7 +180,7 @@ HandScene withAlbedoGrid(float near, float far) {
 }
 
 TEST(ReferenceGrid, SingleScatteringIsLinearInTheAlbedoGrid) {
-    HandScene constant = gridScene(3, glm::vec3(0.7f), lumps(), {0.1f, 0.1f, -1});
+    HandScene constant = gridScene(3, glm::vec3(0.7f), lumpyVoxels(), {0.1f, 0.1f, -1});
     constant.scene.constants.maxDepth = 2;
     const double whole = test::renderPixel(constant.scene, 10000).mean;
     EXPECT_EQ(test::renderPixel(withAlbedoGrid(0.7f, 0.7f).scene, 10000).mean, whole);

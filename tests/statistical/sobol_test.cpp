@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,17 +63,29 @@ TEST(Sobol, HashPermutesDigitsWithinTheTree) {
     }
 }
 
+/// Pairs of words of one sample of many pixels.
+CellTest pairsOf(const glm::ivec2& pair, std::uint32_t sample, const glm::dvec4& bends) {
+    CellTest cells(64, significance());
+    for (std::uint64_t i = 0, n = cells.samplesNeeded(); i < n; ++i) {
+        const glm::uvec4 w = test::bent(wordsOf(std::uint32_t(i), sample, 1), bends);
+        cells.add(partOf(toUniform<double>(w[pair.x]), 8) * 8 + partOf(toUniform<double>(w[pair.y]), 8));
+    }
+    return cells;
+}
+
 // One sample of many pixels each: what unbiasedness needs.
 TEST(Sobol, WordsAreUniformOverPixelsAlsoInPairs) {
-    for (const std::uint32_t sample : {0u, 1u, 6u})
-        for (const glm::ivec2 words : {glm::ivec2(0, 1), glm::ivec2(2, 3), glm::ivec2(0, 2), glm::ivec2(1, 3)}) {
-            CellTest cells(64, significance());
-            for (std::uint64_t i = 0, n = cells.samplesNeeded(); i < n; ++i) {
-                const glm::uvec4 w = wordsOf(std::uint32_t(i), sample, 1);
-                cells.add(partOf(toUniform<double>(w[words.x]), 8) * 8 + partOf(toUniform<double>(w[words.y]), 8));
-            }
-            cells.expectFit("sample " + std::to_string(sample));
+    for (const glm::ivec2 pair : {glm::ivec2(0, 1), glm::ivec2(2, 3), glm::ivec2(0, 2), glm::ivec2(1, 3)})
+        for (const std::uint32_t sample : {0u, 1u, 6u}) {
+            const std::string what = fmt::format("words {} and {} of sample {}", pair.x, pair.y, sample);
+            pairsOf(pair, sample, glm::dvec4(0)).expectFit(what);
         }
+    for (int word = 0; word < 4; ++word) {
+        glm::dvec4 bends(0);
+        bends[word] = 0.02;
+        pairsOf(word < 2 ? glm::ivec2(0, 1) : glm::ivec2(2, 3), 1, bends)
+            .expectMisfit(fmt::format("word {} bent by 2 %", word));
+    }
 }
 
 TEST(Sobol, LowBitsAreUniform) {

@@ -35,6 +35,13 @@ TEST_P(WhiteFurnace, SkySamplingLeavesTheMeanAtOne) {
                                  1000);
 }
 
+// Red light meets a twentieth of the extinction: spectral MIS weighs paths of hundreds of scatterings, on which the
+// density under two of the three heroes sinks far below the smallest float (H37). Weights lie in [0, 3] with mean 1, so
+// that their variance is at most 2: 2 % takes 2 (7.22 / 0.02)^2 = 2.6e5 paths.
+TEST_P(WhiteFurnace, DeepChromaticPathsKeepTheirWeight) {
+    expectWhiteOnAverage(GetParam(), {.tau = 400, .size = 16, .red = 0.05}, 1050, 0.02);
+}
+
 INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, WhiteFurnace, testing::ValuesIn(kBackends),
                          [](const auto& info) { return name(info.param); });
 

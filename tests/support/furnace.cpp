@@ -39,12 +39,14 @@ double writeGrid(const std::filesystem::path& file) {
 }
 
 std::string extinctionText(const Furnace& furnace, const TemporaryFolder& folder) {
-    if (!furnace.isGrid) return fmt::format(R"(<float name="sigma_t" value="{}"/>)", furnace.tau / 2);
+    const double sigma = furnace.tau / 2;
+    if (!furnace.isGrid)
+        return fmt::format(R"(<rgb name="sigma_t" value="{}, {}, {}"/>)", sigma * furnace.red, sigma, sigma);
     const double meanDensity = writeGrid(folder.path() / "density.grid");
     return fmt::format(R"(<float name="scale" value="{}"/>
         <volume name="sigma_t" type="gridvolume"><string name="filename" value="density.grid"/>
         <transform name="to_world"><translate x="-0.5" y="-0.5" z="-0.5"/><scale value="2"/></transform></volume>)",
-                       furnace.tau / 2 / meanDensity);
+                       sigma / meanDensity);
 }
 
 std::string sceneText(const Furnace& furnace, const TemporaryFolder& folder) {
@@ -87,7 +89,7 @@ void expectWhite(Backend backend, const Furnace& furnace) {
     }
 }
 
-void expectWhiteOnAverage(Backend backend, const Furnace& furnace, std::uint64_t samples) {
+void expectWhiteOnAverage(Backend backend, const Furnace& furnace, std::uint64_t samples, double bias) {
     const Film film = renderOn(backend, furnaceScene(furnace), samples, 1);
     const PixelEstimate found = imageMean(film);
     const double threshold = twoSidedThreshold(1e-6);
@@ -96,8 +98,8 @@ void expectWhiteOnAverage(Backend backend, const Furnace& furnace, std::uint64_t
                found.mean, found.error, z, 100 * detectable);
     EXPECT_EQ(countAnomalies(film), 0u) << name(furnace);
     EXPECT_LE(std::abs(z), threshold) << name(furnace);
-    EXPECT_LE(detectable, 0.001) << name(furnace);
-    EXPECT_GT(found.error, 0) << "the sky was not sampled: nothing was tested";
+    EXPECT_LE(detectable, bias) << name(furnace);
+    EXPECT_GT(found.error, 0) << "without a spread nothing was tested";
 }
 
 }  // namespace parhelion::test

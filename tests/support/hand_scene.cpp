@@ -32,12 +32,11 @@ HandScene::HandScene() {
     scene.constants.environment = kNone;
     scene.constants.maxDepth = kNone;
     scene.constants.rouletteDepth = kNone;
-    scene.constants.camera.filterRadius = 0.5f;
     lookAlong({0, 0, -1});
 }
 
 void HandScene::lookAlong(glm::vec3 direction, std::uint32_t inside) {
-    scene.constants.camera = {direction, inside, glm::vec3(0), 0.5f, glm::vec3(0), 0};
+    scene.constants.camera = {direction, inside, glm::vec3(0), 0, glm::vec3(0), 0, glm::uvec2(0), glm::uvec2(1)};
     scene.filmSize = scene.cropSize = {1, 1};
 }
 
@@ -209,6 +208,20 @@ void HandScene::addMeshLight(std::uint32_t shape, glm::vec3 radiance, bool isSam
     light.emission = radiance;
     light.area = float(total);
     addLight(light, isSampled);
+}
+
+HandScene floorPatch(glm::vec3 reflectance, float distance) {
+    HandScene scene;
+    scene.lookAlong({0, 0, -1});
+    scene.addQuad({-0.1f, -0.1f, -distance}, {0.2f, 0, 0}, {0, 0.2f, 0}, scene.addDiffuse(reflectance));
+    return scene;
+}
+
+HandScene fogBox(glm::vec3 albedo) {
+    HandScene scene;
+    scene.lookAlong({0.1f, 0.2f, -1});
+    scene.addBox({-2, -2, -4}, {2, 2, -2}, scene.addNull(scene.addHomogeneous(1, albedo, 0.6f)));
+    return scene;
 }
 
 PixelEstimate estimate(const shared::FilmPixel& pixel, std::uint64_t samples, int channel) {

@@ -59,6 +59,12 @@ private:
     std::vector<bool> sampled_;
 };
 
+/// A patch of floor that faces up, seen from above.
+HandScene floorPatch(glm::vec3 reflectance = glm::vec3(0.5f), float distance = 1);
+
+/// A box of fog, looked at askew; scattering is forward.
+HandScene fogBox(glm::vec3 albedo = {0.9f, 0.8f, 0.7f});
+
 /// Mean of a pixel's samples and the standard error of that mean, first channel unless told.
 struct PixelEstimate {
     double mean, error;

@@ -30,7 +30,8 @@ private:
 };
 
 /// Compares one shader function with the reference and enters the worst error into the parity report, which the
-/// test executable prints at its end: `parity  module  function  worst-ulps  cases` (an ulp is two roundings).
+/// test executable prints at its end: `parity  module  function  worst-ulps  cases` (an ulp is two roundings). A record
+/// to which nothing was compared fails its test.
 class Parity {
 public:
     /// @param module     path of the shader without suffix, e.g. "core/math".

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "compile/compile_phase.h"
+#include "reference/volume/phase_function.h"
 
 namespace parhelion::test {
 namespace {
@@ -163,6 +164,34 @@ std::vector<PhaseCase> newPhaseCases() {
             {"table with all ahead", tabulated({0, 0, 0, 1e-200})},
             {"table of nearly equal values", tabulated({1, 1 + 1e-6, 1})},
             {"table of droplets", dropletTable(181)}};
+}
+
+PhaseSampler samplerOf(const PhaseCase& phase) {
+    return [medium = phase.medium<float>()](const glm::vec3& wo, const glm::vec2& u, std::uint32_t choice) {
+        return reference::samplePhase(medium, wo, u, choice).direction;
+    };
+}
+
+CellTest scatterInto(CellTest cells, const DeflectionCell& cellOf, const PhaseSampler& sampler, double share) {
+    const glm::vec3 wo = glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f));
+    const glm::dvec3 travel = -glm::normalize(glm::dvec3(wo));
+    const glm::dvec3 side = glm::normalize(glm::cross(travel, glm::dvec3(1, 0, 0))), up = glm::cross(travel, side);
+    IndependentNumbers numbers(11);
+    for (auto i = std::uint64_t(share * double(cells.samplesNeeded())); i > 0; --i) {
+        const glm::vec2 u = numbers.pair<float>();
+        const glm::dvec3 wi(sampler(wo, u, numbers.word()));
+        const glm::dvec3 chord = wi - travel;
+        cells.add(cellOf(glm::dot(chord, chord) / 2, turnOf(glm::dot(wi, side), glm::dot(wi, up))));
+    }
+    return cells;
+}
+
+CellTest scatterIntoEqualCells(const PhaseCase& phase, const PhaseSampler& sampler, double significance, double share) {
+    constexpr std::size_t kPolar = 6, kAzimuth = 3;
+    const auto cellOf = [&](double oneMinusMu, double turn) {
+        return partOf(phase.cdf(oneMinusMu), kPolar) * kAzimuth + partOf(turn, kAzimuth);
+    };
+    return scatterInto(CellTest(kPolar * kAzimuth, significance), cellOf, sampler, share);
 }
 
 }  // namespace parhelion::test

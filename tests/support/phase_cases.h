@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "compile/compiled_scene.h"
 #include "reference/core/scene.h"
 #include "scene/scene_description.h"
+#include "support/goodness.h"
 
 namespace parhelion::test {
 
@@ -51,5 +53,20 @@ PhaseDescription dropletTable(std::size_t count);
 /// Dual functions with weights and lobes at their limits, the Rayleigh function, and tables: of one interval, with
 /// empty intervals, with a single peak inside and at either end, and of droplets.
 std::vector<PhaseCase> newPhaseCases();
+
+using PhaseSampler = std::function<glm::vec3(const glm::vec3& wo, const glm::vec2& u, std::uint32_t choice)>;
+/// samplePhase.
+PhaseSampler samplerOf(const PhaseCase& phase);
+
+/// Cell of a deflection by 1 - mu and the share of the full turn.
+using DeflectionCell = std::function<std::size_t(double oneMinusMu, double turn)>;
+
+/// Scatters a skew ray.
+/// @param share  of the samples that a distortion of half a percent needs; seeded defects are larger.
+CellTest scatterInto(CellTest cells, const DeflectionCell& cellOf, const PhaseSampler& sampler, double share = 1);
+
+/// Into 6 x 3 cells of equal probability by distribution function and azimuth about the direction of travel.
+CellTest scatterIntoEqualCells(const PhaseCase& phase, const PhaseSampler& sampler, double significance,
+                               double share = 1);
 
 }  // namespace parhelion::test

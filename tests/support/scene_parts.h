@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+#include <map>
 #include <string>
 
 #include "support/hand_scene.h"
@@ -116,13 +119,20 @@ inline std::string colorCloud(const TemporaryFolder& folder) {
         (folder.path() / "color.vol").string());
 }
 
-/// A ball of 80 triangles of unit radius, with smooth vertex normals unless `flat`.
+/// A ball of 80 triangles of unit radius, with smooth vertex normals unless `flat`: their corners are shared.
 inline std::string ball(const TemporaryFolder& folder, bool flat, const std::string& transform,
                         const std::string& content) {
-    std::string text;
-    const std::vector<glm::vec3> vertices = icosphere(1);
-    for (const glm::vec3& v : vertices) text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
-    for (std::size_t i = 1; i + 2 <= vertices.size(); i += 3) text += fmt::format("f {} {} {}\n", i, i + 1, i + 2);
+    std::string text, faces;
+    std::map<std::array<long, 3>, std::size_t> numbers;  // corners are the same if they agree to 1e-4
+    const std::vector<glm::vec3> corners = icosphere(1);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::vec3& v = corners[i];
+        const auto [found, isNew] = numbers.try_emplace(
+            {std::lround(1e4 * v.x), std::lround(1e4 * v.y), std::lround(1e4 * v.z)}, numbers.size() + 1);
+        if (isNew) text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
+        faces += fmt::format("{} {}{}", i % 3 == 0 ? "f" : "", found->second, i % 3 == 2 ? "\n" : "");
+    }
+    text += faces;
     return fmt::format(R"(<shape type="obj"><string name="filename" value="{}"/>
     <boolean name="face_normals" value="{}"/><transform name="to_world">{}</transform>{}</shape>)",
                        folder.write("ball.obj", text).string(), flat, transform, content);

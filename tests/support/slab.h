@@ -48,11 +48,15 @@ public:
     explicit SlabScores(std::size_t tests);
     /// `exact` is known to 1e-6 (the table's 6 trusted decimals, the film's 0.1 degrees).
     void add(const PixelEstimate& found, double exact, const std::string& what);
+    /// Takes an estimate for the common bias alone.
+    void collect(const PixelEstimate& found, double exact);
     /// Takes the estimates of other scores for the common bias; they have been tested one by one.
     void pool(const SlabScores& other);
     /// Fails when the common bias is significant (1e-6), and when one of `resolution` would not have been found with
     /// 99 % power. Prints both.
     void expectNoCommonBias(double resolution, const std::string& what) const;
+    /// Whether the common bias is significant (1e-6): for seeded defects.
+    bool haveCommonBias() const;
 
 private:
     double threshold_ = 0;

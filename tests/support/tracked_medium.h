@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +12,20 @@
 #include "support/hand_scene.h"
 
 namespace parhelion::test {
+
+inline constexpr glm::uvec3 kLumpyResolution{20, 9, 17};
+
+/// Voxels in [0, 1], x fastest, with empty stretches and different in every direction.
+inline std::vector<float> lumpyVoxels() {
+    constexpr glm::uvec3 n = kLumpyResolution;
+    std::vector<float> voxels;
+    for (unsigned i = 0; i < n.x * n.y * n.z; ++i) {
+        const glm::vec3 p(i % n.x, i / n.x % n.y, i / (n.x * n.y));
+        const float wave = std::sin(0.9f * p.x) * std::cos(0.7f * p.y) + std::sin(0.5f * p.z);
+        voxels.push_back(std::max(0.0f, wave / 2));
+    }
+    return voxels;
+}
 
 /// One medium and one ray through it, for tests of the tracking alone.
 struct TrackedMedium {
@@ -44,6 +60,15 @@ struct TrackedMedium {
         tracked.exact.emplace(values, resolution, scale * glm::dvec3(from), scale * glm::dvec3(tracked.ray.direction),
                               sigma, tracked.tEnd);
         return tracked;
+    }
+
+    /// lumpyVoxels over [0, 4] x [0, 3] x [0, 3].
+    static TrackedMedium lumps(float sigma, glm::vec3 from, glm::vec3 to, float slack = 1) {
+        return grid(sigma, kLumpyResolution, lumpyVoxels(), {4, 3, 3}, from, to, slack);
+    }
+    /// Along a skew ray, which meets an optical depth of 1.187 sigma.
+    static TrackedMedium lumps(float sigma, float slack = 1) {
+        return lumps(sigma, {0, 0.2f, 0.1f}, {4, 2.7f, 2.9f}, slack);
     }
 };
 

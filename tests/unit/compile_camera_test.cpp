@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "compile/compile_film.h"
+#include "scene/read_sensor.h"
 #include "unit/compile_fixtures.h"
 
 namespace parhelion {
@@ -71,7 +73,7 @@ std::vector<View> views() {
 SceneDescription sceneOf(const View& view) {
     SceneDescription description = scene();
     description.camera.toWorld = lookAt(view.origin, view.target);
-    description.camera.fovXDegrees = view.fov;
+    description.camera.fovDegrees = view.fov;
     description.camera.principalPointOffset = view.principalPointOffset;
     description.film.size = view.size;
     return description;
@@ -93,6 +95,43 @@ TEST(CompiledCamera, DirectionsEqualMitsubas) {
     }
 }
 
+struct FovCase {
+    FovAxis axis;
+    double wide, tall, square;  ///< expected horizontal degrees at 300 x 200, 200 x 300, 48 x 48
+};
+
+TEST(HorizontalFov, MatchesMitsubaForEveryAxis) {
+    // params['x_fov'] of Mitsuba for fov = 40. x: 40. y: 2 atan(tan 20 * aspect).
+    // diagonal: 2 atan(tan 20 / sqrt(1 + 1 / aspect^2)). smaller, larger: x or y, whichever the film's side is.
+    const FovCase cases[] = {{FovAxis::X, 40.0, 40.0, 40.0},
+                             {FovAxis::Y, 57.265140533447266, 27.278078079223633, 40.0},
+                             {FovAxis::Diagonal, 33.696983337402344, 22.82851791381836, 28.865510940551758},
+                             {FovAxis::Smaller, 57.265140533447266, 40.0, 40.0},
+                             {FovAxis::Larger, 40.0, 27.278078079223633, 40.0}};
+    constexpr double kDegrees =
+        1e-5;  // single precision of numbers below 64: 64 * 2^-24, and a tangent and its inverse
+    for (const FovCase& expected : cases) {
+        EXPECT_NEAR(horizontalFov(40.0, expected.axis, 1.5), expected.wide, kDegrees);
+        EXPECT_NEAR(horizontalFov(40.0, expected.axis, 1.0 / 1.5), expected.tall, kDegrees);
+        EXPECT_NEAR(horizontalFov(40.0, expected.axis, 1.0), expected.square, kDegrees);
+    }
+}
+
+TEST(HorizontalFov, FollowsTheLensOnThirtyFiveMillimetreFilm) {
+    // Mitsuba's x_fov for focal_length 50 mm and 35 mm: 2 atan(sqrt(36^2 + 24^2) / (2 f)) along the diagonal.
+    constexpr double kDegrees = 1e-5;
+    const auto lens = [](double focalLength, double aspect) {
+        return horizontalFov(diagonalFovOfLens(focalLength), FovAxis::Diagonal, aspect);
+    };
+    EXPECT_NEAR(lens(50.0, 1.5), 39.59775161743164, kDegrees);
+    EXPECT_NEAR(lens(50.0, 1.0 / 1.5), 26.991466522216797, kDegrees);
+    EXPECT_NEAR(lens(50.0, 1.0), 34.022056579589844, kDegrees);
+    EXPECT_NEAR(lens(35.0, 1.5), 54.43222427368164, kDegrees);
+    EXPECT_NEAR(lens(35.0, 1.0), 47.21631622314453, kDegrees);
+    // On film of its own shape a lens sees 36 mm across.
+    EXPECT_NEAR(lens(50.0, 1.5), glm::degrees(2.0 * std::atan(36.0 / 100.0)), 1e-12);
+}
+
 TEST(CompiledCamera, SizeOverrideKeepsHorizontalFov) {
     CompileOptions options;
     options.size = glm::uvec2(64, 16);
@@ -105,13 +144,27 @@ TEST(CompiledCamera, SizeOverrideKeepsHorizontalFov) {
     EXPECT_GT(left.x, 0.0) << "+x is on the left";
 }
 
+TEST(CompiledCamera, SizeOverrideKeepsVerticalFovIfThatWasGiven) {
+    SceneDescription description = scene();
+    description.camera.fovAxis = FovAxis::Y;
+    for (const glm::uvec2 size : {glm::uvec2(32, 32), glm::uvec2(64, 16), glm::uvec2(16, 64)}) {
+        CompileOptions options;
+        options.size = size;
+        const shared::Camera camera = compileScene(description, options).constants.camera;
+        const glm::dvec3 middle = glm::dvec3(camera.forward) + 0.5 * size.x * glm::dvec3(camera.dx);
+        const glm::dvec3 top = glm::normalize(middle);
+        const glm::dvec3 bottom = glm::normalize(middle + double(size.y) * glm::dvec3(camera.dy));
+        EXPECT_NEAR(glm::degrees(std::acos(glm::dot(top, bottom))), 40.0, 1e-4) << size.x;
+    }
+}
+
 TEST(CompiledCamera, RefusesScaleAndFlatFov) {
     SceneDescription scaled = scene();
     scaled.camera.toWorld = scaling({1, 2, 1});
     EXPECT_TRUE(contains(inputErrorOf(scaled), "without scale"));
     for (const double fov : {0.0, 180.0, -1.0, double(NAN)}) {
         SceneDescription wide = scene();
-        wide.camera.fovXDegrees = fov;
+        wide.camera.fovDegrees = fov;
         EXPECT_TRUE(contains(inputErrorOf(wide), "(0, 180)")) << fov;
     }
 }

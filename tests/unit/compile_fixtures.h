@@ -79,7 +79,7 @@ inline SceneDescription scene() {
     SceneDescription result;
     result.file = "scene.xml";
     result.camera.toWorld = translation({0, 0, -10});
-    result.camera.fovXDegrees = 40.0;
+    result.camera.fovDegrees = 40.0;
     result.film.size = {32, 32};
     result.film.filter = ReconstructionFilter::Box;
     result.film.filterRadius = 0.5;

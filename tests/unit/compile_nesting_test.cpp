@@ -123,6 +123,20 @@ TEST(MediumNesting, EmptyMediaLeaveNothing) {
     EXPECT_FALSE(compiled.notes.empty());
 }
 
+TEST(MediumNesting, TheSensorsMediumIsTheOneAroundIt) {
+    SceneDescription description =
+        sceneWith({boundary(cube("outer", {}, {5, 5, 50}), 0), boundary(sphere("inner", {}, 1), 1, 0)});
+    description.camera.mediumWhere = {"camera.xml", 4, 9};
+    description.camera.medium = 0;
+    EXPECT_EQ(inputErrorOf(description), "");
+    description.camera.medium = 1;
+    const std::string other = inputErrorOf(description);
+    EXPECT_TRUE(contains(other, "camera.xml:4:9") && contains(other, "\"a\" of") && contains(other, "got \"b\""))
+        << other;
+    description.camera.toWorld = translation({0, 0, -100});
+    EXPECT_TRUE(contains(inputErrorOf(description), "no medium; got \"b\""));
+}
+
 std::uint32_t insideFrom(const glm::dvec3& camera, const std::vector<ShapeDescription>& shapes) {
     SceneDescription description = sceneWith(shapes);
     description.camera.toWorld = translation(camera);

@@ -56,7 +56,6 @@ TEST(CompileTextures, AreSharedAndTinted) {
         textured({rectangle("a"), sphere("b", {}, 1)}, checkers({0, 0, 0}, {1, 1, 1}), {0.5, 1, 0.25});
     const CompiledScene scene = compileScene(description, {});
     EXPECT_EQ(scene.textures.size(), 1u);
-    EXPECT_EQ(scene.constants.textureCount, 1u);
     for (const shared::Shape& shape : scene.shapes) {
         EXPECT_EQ(shape.texture, 0u);
         EXPECT_EQ(shape.reflectance, glm::vec3(0.5f, 1, 0.25f));

@@ -27,7 +27,7 @@ TEST(NoriDefaults, AreNoris) {
     EXPECT_EQ(scene.film.filter, ReconstructionFilter::Gaussian);
     EXPECT_EQ(scene.film.filterStddev, 0.5);
     EXPECT_EQ(scene.film.filterRadius, 2.0);
-    EXPECT_EQ(scene.camera.fovXDegrees, 30.0);
+    EXPECT_EQ(scene.camera.fovDegrees, 30.0);
     EXPECT_EQ(scene.camera.toWorld, glm::dmat4(1.0));
     EXPECT_EQ(scene.sampleCount, 1u);
     EXPECT_EQ(scene.integrator.maxDepth, -1);
@@ -46,7 +46,7 @@ TEST(NoriCamera, HoldsFilmAndFilter) {
 <float name="nearClip" value="0.1"/><float name="farClip" value="100"/>
 <rfilter type="gaussian"><float name="radius" value="1.5"/><float name="stddev" value="0.4"/></rfilter>)");
     EXPECT_EQ(scene.film.size, glm::uvec2(40, 30));
-    EXPECT_EQ(scene.camera.fovXDegrees, 50.0);
+    EXPECT_EQ(scene.camera.fovDegrees, 50.0);
     EXPECT_EQ(scene.film.filterRadius, 1.5);
     EXPECT_EQ(scene.film.filterStddev, 0.4);
     EXPECT_EQ(scene.notes.size(), 2u) << "the clipping planes";

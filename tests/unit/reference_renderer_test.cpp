@@ -194,6 +194,9 @@ TEST(ReferenceRenderer, FilterTablesMoveFilmPositions) {
     };
     EXPECT_EQ(lit(), 8);
     for (int i = 0; i <= 256; ++i) scene.scene.filterTable.push_back(float(i - 128) / 64);  // box of radius 2
+    shared::Camera& camera = scene.scene.constants.camera;
+    camera.hasFilter = 1;
+    camera.filmUpper = {4, 4};
     EXPECT_EQ(lit(), 16);
 }
 

@@ -1,6 +1,7 @@
 // The scenes that peers share: each either reads, or says which plugin it needs that we have not.
 #include <gtest/gtest.h>
 
+#include "compile/compile_film.h"
 #include "support/scene_reading.h"
 
 namespace parhelion::test {
@@ -27,7 +28,7 @@ TEST(BenchmarkScene, FurnaceReads) {
     EXPECT_EQ(scene.film.size, glm::uvec2(256));
     EXPECT_EQ(scene.film.filter, ReconstructionFilter::Box);
     EXPECT_EQ(scene.sampleCount, 16u);
-    EXPECT_EQ(scene.camera.fovXDegrees, 40.0);
+    EXPECT_EQ(scene.camera.fovDegrees, 40.0);
     EXPECT_EQ(scene.integrator.rouletteDepth, 1'000'000);
     EXPECT_EQ(scene.media.at(0).sigmaT, glm::dvec3(10.0));
     EXPECT_EQ(scene.media.at(0).albedo, glm::dvec3(1.0));
@@ -94,7 +95,8 @@ TEST(MitsubaTestScene, WithoutTexturesReads) {
         const SceneDescription scene = readScene(file, {.defines = {{"size", "32"}}});
         EXPECT_EQ(scene.shapes.size(), 3u);
         EXPECT_EQ(scene.film.size, glm::uvec2(32));
-        EXPECT_NEAR(scene.camera.fovXDegrees, 34.022056579589844, 1e-5);  // Mitsuba's, in single precision
+        EXPECT_NEAR(horizontalFov(scene.camera.fovDegrees, scene.camera.fovAxis, 1.0), 34.022056579589844,
+                    1e-5);  // Mitsuba's, in single precision
         EXPECT_EQ(scene.integrator.maxDepth, 6);
     }
 }

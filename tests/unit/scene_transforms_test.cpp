@@ -1,9 +1,8 @@
-// Transforms and fields of view against closed forms and against Mitsuba 3.9.1's own numbers.
+// Transforms against closed forms and against Mitsuba 3.9.1's own numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "scene/read_sensor.h"
 #include "scene/transforms.h"
 #include "support/temporary_folder.h"
 
@@ -89,41 +88,20 @@ TEST(SceneTransform, SimilarityKeepsAngles) {
     EXPECT_FALSE(similarityOf(parseTransform(R"(<matrix value="1 0.001 0 0 1 0 0 0 1"/>)")).holds);
 }
 
-struct FovCase {
-    FovAxis axis;
-    double wide, tall, square;  ///< expected horizontal degrees at 300 x 200, 200 x 300, 48 x 48
-};
-
-TEST(HorizontalFov, MatchesMitsubaForEveryAxis) {
-    // params['x_fov'] of Mitsuba for fov = 40. x: 40. y: 2 atan(tan 20 * aspect).
-    // diagonal: 2 atan(tan 20 / sqrt(1 + 1 / aspect^2)). smaller, larger: x or y, whichever the film's side is.
-    const FovCase cases[] = {{FovAxis::X, 40.0, 40.0, 40.0},
-                             {FovAxis::Y, 57.265140533447266, 27.278078079223633, 40.0},
-                             {FovAxis::Diagonal, 33.696983337402344, 22.82851791381836, 28.865510940551758},
-                             {FovAxis::Smaller, 57.265140533447266, 40.0, 40.0},
-                             {FovAxis::Larger, 40.0, 27.278078079223633, 40.0}};
-    constexpr double kDegrees =
-        1e-5;  // single precision of numbers below 64: 64 * 2^-24, and a tangent and its inverse
-    for (const FovCase& expected : cases) {
-        EXPECT_NEAR(horizontalFov(40.0, expected.axis, 1.5), expected.wide, kDegrees);
-        EXPECT_NEAR(horizontalFov(40.0, expected.axis, 1.0 / 1.5), expected.tall, kDegrees);
-        EXPECT_NEAR(horizontalFov(40.0, expected.axis, 1.0), expected.square, kDegrees);
-    }
-}
-
-TEST(HorizontalFov, FollowsTheLensOnThirtyFiveMillimetreFilm) {
-    // Mitsuba's x_fov for focal_length 50 mm and 35 mm: 2 atan(sqrt(36^2 + 24^2) / (2 f)) along the diagonal.
-    constexpr double kDegrees = 1e-5;
-    const auto lens = [](double focalLength, double aspect) {
-        return horizontalFov(diagonalFovOfLens(focalLength), FovAxis::Diagonal, aspect);
+TEST(SceneTransform, LookAtWithoutUpTurnsAsMitsubas) {
+    // The first two columns of Mitsuba 3.9.1's to_world.
+    const auto expectAxes = [](const std::string& lookat, glm::dvec3 left, glm::dvec3 up) {
+        const glm::dmat4 matrix = parseTransform("<lookat " + lookat + "/>");
+        EXPECT_LT(glm::length(glm::dvec3(matrix[0]) - left), kSinglePrecision) << lookat;
+        EXPECT_LT(glm::length(glm::dvec3(matrix[1]) - up), kSinglePrecision) << lookat;
     };
-    EXPECT_NEAR(lens(50.0, 1.5), 39.59775161743164, kDegrees);
-    EXPECT_NEAR(lens(50.0, 1.0 / 1.5), 26.991466522216797, kDegrees);
-    EXPECT_NEAR(lens(50.0, 1.0), 34.022056579589844, kDegrees);
-    EXPECT_NEAR(lens(35.0, 1.5), 54.43222427368164, kDegrees);
-    EXPECT_NEAR(lens(35.0, 1.0), 47.21631622314453, kDegrees);
-    // On film of its own shape a lens sees 36 mm across.
-    EXPECT_NEAR(lens(50.0, 1.5), glm::degrees(2.0 * std::atan(36.0 / 100.0)), kRounding * 100);
+    const glm::dvec3 left(-0.05085137, 0.89829725, -0.43643579), up(0.97457433, -0.05085137, -0.21821789);
+    expectAxes(R"(origin="1,2,4" target="0,0,0")", left, up);
+    expectAxes(R"(origin="1,2,4" target="0,0,0" up="")", left, up);
+    expectAxes(R"(origin="1,2,4" target="0,0,0" up="0,0,0")", left, up);
+    expectAxes(R"(origin="0,0,0" target="2,2,2")", {0.21132487, -0.78867513, 0.57735026},
+               {0.78867513, -0.21132487, -0.57735026});
+    expectAxes(R"(origin="0,4,0" target="0,0,0")", {0, 0, -1}, {1, 0, 0});
 }
 
 }  // namespace

@@ -159,7 +159,8 @@ TEST(SharedLayout, CloudArgumentsAreTheSameInBothLanguages) {
 TEST(SharedLayout, CameraIsTheSameInBothLanguages) {
     using Type = shared::Camera;
     expectLayout("Camera", sizeof(Type),
-                 {MEMBER(forward), MEMBER(inside), MEMBER(dx), MEMBER(filterRadius), MEMBER(dy)});
+                 {MEMBER(forward), MEMBER(inside), MEMBER(dx), MEMBER(filterEdges), MEMBER(dy), MEMBER(hasFilter),
+                  MEMBER(filmLower), MEMBER(filmUpper)});
 }
 
 TEST(SharedLayout, SceneConstantsAreTheSameInBothLanguages) {
@@ -178,7 +179,6 @@ TEST(SharedLayout, SceneConstantsAreTheSameInBothLanguages) {
                   MEMBER(environmentRadiance),
                   MEMBER(emitterSamples),
                   MEMBER(scatterSamples),
-                  MEMBER(textureCount),
                   MEMBER(depthLayers),
                   MEMBER(environmentMap),
                   MEMBER(sky),

@@ -21,7 +21,8 @@ struct Row {
     std::vector<double> numbers;
 };
 
-std::vector<Row> rowsOf(const std::string& name) {
+/// @param count  rows that the table has.
+std::vector<Row> rowsOf(const std::string& name, std::size_t count) {
     std::ifstream file(PARHELION_ROOT "/tests/references/" + name);
     std::vector<Row> rows;
     std::string line, cell;
@@ -33,6 +34,7 @@ std::vector<Row> rowsOf(const std::string& name) {
         while (std::getline(cells, cell, '|')) row.numbers.push_back(std::stod(cell));
         rows.push_back(row);
     }
+    EXPECT_EQ(rows.size(), count) << name;
     return rows;
 }
 
@@ -52,7 +54,7 @@ CompiledScene compileShape(const std::string& shape, int copies) {
 // Mitsuba works in single precision: (u, v) within a few roundings of a hit at a distance of up to 5, which uv's slope
 // of 1 a unit or (on a small sphere) 0.5 / 0.6 keeps; next to a pole of a sphere u is less certain.
 void expectUvs(int copies) {
-    for (const Row& row : rowsOf("surface_uvs.csv")) {
+    for (const Row& row : rowsOf("surface_uvs.csv", 150)) {
         const CompiledScene scene = compileShape(row.text, copies);
         const reference::SceneView<double> view(scene);
         const std::vector<double>& n = row.numbers;
@@ -80,7 +82,7 @@ TEST(TextureLookup, IsMitsubasForEveryWrapFilterAndTransform) {
     bitmap.channels["G"] = {0, 1, 0.5f, 0.25f, 0, 0.75f};
     bitmap.channels["B"] = {0.5f, 0.25f, 0, 1, 0, 0.5f};
     writeExr(folder.path() / "bitmap.exr", bitmap);
-    for (const Row& row : rowsOf("texture_values.csv")) {
+    for (const Row& row : rowsOf("texture_values.csv", 204)) {
         std::string text = row.text;
         if (const auto name = text.find("$bitmap"); name != std::string::npos)
             text.replace(name, 7, (folder.path() / "bitmap.exr").string());

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Writes tests/references/environment_maps.csv: radiance of Mitsuba's envmap by direction.
+"""Writes tests/references/environment_maps.csv, and shared_environment_maps.csv: Mitsuba's envmap by direction.
 
 Each row is a map, a rotation (axis and degrees of `to_world`), a direction, and the colour that Mitsuba 3 evaluates in
-single precision. A map "WIDTHxHEIGHT" is made by texel() here and by the test; other names are files in the data beside
-the project.
+single precision. A map "WIDTHxHEIGHT" is made by texel() here and by the test; other names, those of the second table,
+are files in the data beside the project.
 
     tools/mitsuba/environment_maps.py
+    tools/mitsuba/environment_maps.py --shared 2000 --output tests/references/shared_environment_maps.csv
     tools/mitsuba/environment_maps.py --shared 100000 --output /tmp/maps.csv  # for tests/nightly/environment_table_test
 """
 

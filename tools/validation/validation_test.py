@@ -1,5 +1,6 @@
 """validation_test.py BUILD: tools/validate passes what is right and fails what is wrong, on its cheapest cases."""
 
+import dataclasses
 import pathlib
 import re
 import subprocess
@@ -8,6 +9,10 @@ import tempfile
 import unittest
 
 import exr
+from cases import ROOT
+from program import Program
+from run import Settings, run_case
+from table import BASELINE_TESTS
 
 HERE = pathlib.Path(__file__).parent
 BUILD = pathlib.Path(sys.argv.pop()).resolve()
@@ -49,6 +54,22 @@ class Validation(unittest.TestCase):
         exr.write(self.folder / "small.exr", 8, 8, lambda x, y: (1, 1, 1))
         output = self.assert_result(self.validate("--only", "furnace", "--reference", self.folder / "small.exr"), 1)
         self.assertIn("must have one size", output)
+
+    def test_tests_show_their_figures(self):
+        case = BASELINE_TESTS[-1]
+        output = self.assert_result(self.validate("--only", case.name), 0)
+        figure = r"p = [\d.e-]+, chi-square [\d.]+ of \d+, \d+ samples; finds [\d.]+ % \(power 0.99\)"
+        self.assertRegex(output, figure)
+        page = (self.folder / "index.html").read_text()
+        self.assertRegex(page, figure)
+        self.assertRegex(page, r"seeded defect, [^\n]*: p = ")
+
+    def test_a_test_that_is_missing_is_an_error(self):
+        settings = Settings(Program(BUILD, ROOT, "vulkan"), self.folder)
+        for change in ({"filter": "*NoSuchTest*"}, {"program": "no_such_test"}):
+            result = run_case(dataclasses.replace(BASELINE_TESTS[-1], **change), settings)
+            self.assertEqual(result.status, "error")
+            self.assertIn("no test", result.reason)
 
     def test_wrong_usage_is_told_from_failure(self):
         self.assertIn("there are", self.validate("--only", "furnaces").stderr)

@@ -15,13 +15,12 @@ struct Surface {
     Vec2<Real> uv{0};
 };
 
-/// Unit normal of a triangle counted from the first, on the side that flip_normals says.
+/// Unit normal of a triangle counted from the first.
 /// Reference only: the shader has it within triangleSurface.
 template <typename Real>
 Vec3<Real> triangleNormal(const SceneView<Real>& scene, std::uint32_t triangle) {
     const Vec3<Real> v0 = scene.vertex(triangle, 0);
-    const Vec3<Real> n = glm::normalize(glm::cross(scene.vertex(triangle, 1) - v0, scene.vertex(triangle, 2) - v0));
-    return scene.isFlipped(scene.triangleShape(triangle)) ? -n : n;
+    return glm::normalize(glm::cross(scene.vertex(triangle, 1) - v0, scene.vertex(triangle, 2) - v0));
 }
 
 /// Unit normal of a quad or triangle.
@@ -61,7 +60,7 @@ Surface<Real> triangleSurface(const SceneView<Real>& scene, std::uint32_t triang
     const glm::vec4* normals = &scene.source.vertexNormals[std::size_t(triangle) * 3];
     const Vec3<Real> n = b.x * Vec3<Real>(normals[0]) + b.y * Vec3<Real>(normals[1]) + b.z * Vec3<Real>(normals[2]);
     const Real length = glm::length(n);
-    if (length > 0) surface.shadingNormal = (scene.isFlipped(scene.triangleShape(triangle)) ? -n : n) / length;
+    if (length > 0) surface.shadingNormal = n / length;
     return surface;
 }
 

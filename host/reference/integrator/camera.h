@@ -7,23 +7,39 @@
 
 namespace parhelion::reference {
 
-/// Offset of one film coordinate from the pixel's lower edge: the reconstruction filter, importance sampled.
+/// Offset from the pixel's centre along one axis of the reconstruction filter, importance sampled [pixels].
 ///
-/// @param table  inverse CDF at multiples of 1/256, pixels about the centre; empty for the box filter.
+/// @param table  inverse CDF at multiples of 1 / kFilterSteps.
 template <typename Real>
 Real filterOffset(std::span<const float> table, Real u) {
-    if (table.empty()) return u;
-    const Real s = u * Real(table.size() - 1);
-    const auto i = static_cast<std::size_t>(s);
+    const Real s = u * Real(shared::kFilterSteps);
+    const std::size_t i = std::min(static_cast<std::size_t>(s), std::size_t(shared::kFilterSteps - 1));
     const Real f = s - Real(i);
-    return Real(0.5) + (Real(table[i]) * (1 - f) + Real(table[i + 1]) * f);
+    return Real(table[i]) * (1 - f) + Real(table[i + 1]) * f;
 }
 
-/// A random point of the film about the pixel, in pixels from the top left.
+/// Share of one axis of the filter that lies within some whole pixels beyond its own.
+template <typename Real>
+Real filterShare(const SceneView<Real>& scene, std::uint32_t pixels) {
+    if (pixels >= scene.constants.camera.filterEdges) return 1;
+    return Real(scene.source.filterTable[shared::kFilterSteps + 1 + pixels]);
+}
+
+/// A random point of the film about the pixel, in pixels from the top left. The filter ends where the film does.
 template <typename Real>
 Vec2<Real> filmPosition(const SceneView<Real>& scene, glm::uvec2 pixel, const Vec2<Real>& u) {
-    const std::span<const float> table(scene.source.filterTable);
-    return Vec2<Real>(pixel) + Vec2<Real>(filterOffset(table, u.x), filterOffset(table, u.y));
+    const shared::Camera& camera = scene.constants.camera;
+    Vec2<Real> position(pixel);
+    for (int axis = 0; axis < 2; ++axis) {
+        if (!camera.hasFilter) {
+            position[axis] += u[axis];
+            continue;
+        }
+        const Real low = 1 - filterShare(scene, pixel[axis] - camera.filmLower[axis]);
+        const Real high = filterShare(scene, camera.filmUpper[axis] - 1 - pixel[axis]);
+        position[axis] += Real(0.5) + filterOffset(std::span(scene.source.filterTable), low + u[axis] * (high - low));
+    }
+    return position;
 }
 
 /// Unit direction from the camera through a film position.

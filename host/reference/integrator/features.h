@@ -15,11 +15,9 @@ void addFeature(const SceneView<Real>& scene, std::uint32_t seed, glm::uvec2 pix
     if (!hit.found() || hit.isNull) return;
     const shared::Shape& shape = scene.shapeAt(hit.shape);
     const Surface<Real> surface = surfaceAt(scene, ray, hit);
-    const bool isBehind = glm::dot(surface.geometricNormal, ray.direction) > 0;
-    const bool flips = isBehind && (shape.flags & shared::kShapeTwoSided) != 0;
     sums.albedo += glm::vec3(reflectanceAt(scene.source, shape, surface.uv));
     sums.depth += float(hit.t);
-    sums.normal += glm::vec3(flips ? -surface.shadingNormal : surface.shadingNormal);
+    sums.normal += glm::vec3(surface.shadingNormal);
     sums.hits += 1.0f;
 }
 

@@ -59,15 +59,18 @@ bool surfaceVertex(const PathContext<Real, Trace>& path, const Hit<Real>& hit, V
     vertex.primitive = hit.primitive;
     const Vec3<Real> reflectance = reflectanceAt(scene.source, shape, vertex.surface.uv);
     vertex.strength = maxComponent(reflectance);
-    const Vec3<Real>& normal = vertex.surface.geometricNormal;
-    if (shape.light != kNone && lightCosine(scene.lights[shape.light], normal, vertex.wo) > 0)
-        addEmission(scene, scene.lights[shape.light], emissionAt(scene, scene.lights[shape.light], vertex.surface.uv),
-                    hit.t, normal, state);
-    if (!(glm::dot(normal, vertex.wo) > 0)) {
-        if ((shape.flags & shared::kShapeTwoSided) == 0) return false;
-        vertex.surface.geometricNormal = -vertex.surface.geometricNormal;
-        vertex.surface.shadingNormal = -vertex.surface.shadingNormal;
+    Surface<Real>& surface = vertex.surface;
+    if (shape.light != kNone) {
+        const Light<Real>& light = scene.lights[shape.light];
+        const Real cosine = lightCosine(light, surface.geometricNormal, surface.shadingNormal, vertex.wo);
+        if (cosine > 0) addEmission(scene, light, emissionAt(scene, light, surface.uv), hit.t, cosine, state);
     }
+    // Mitsuba's rule: the shading normal alone says which side is seen.
+    if (!(glm::dot(surface.shadingNormal, vertex.wo) > 0)) {
+        if ((shape.flags & shared::kShapeTwoSided) == 0) return false;
+        surface.shadingNormal = -surface.shadingNormal;
+    }
+    ++path.counters[shared::kCounterVertices];
     return vertex.index < scene.constants.maxDepth && scatter(path, vertex, reflectance, state);
 }
 
@@ -77,6 +80,7 @@ bool surfaceVertex(const PathContext<Real, Trace>& path, const Hit<Real>& hit, V
 template <typename Real, typename Trace>
 bool mediumVertex(const PathContext<Real, Trace>& path, const Medium<Real>& medium, Real t, Vertex<Real>& vertex,
                   PathState<Real>& state) {
+    ++path.counters[shared::kCounterVertices];
     if (vertex.index >= path.scene.constants.maxDepth) return false;
     vertex.medium = &medium;
     vertex.position = state.ray.origin + t * state.ray.direction;
@@ -101,7 +105,6 @@ bool handleEvent(const PathContext<Real, Trace>& path, const FlightEnd<Real>& en
         addEnvironment(path.scene, state);
         return false;
     }
-    ++path.counters[shared::kCounterVertices];
     Vertex<Real> vertex;
     vertex.wo = -state.ray.direction;
     vertex.inside = state.ray.inside;

@@ -11,11 +11,13 @@
 
 namespace parhelion::reference {
 
-/// Cosine at an area light of what leaves along `outgoing`: nothing does behind, unless the light has two sides.
+/// Cosine at an area light of what leaves along `outgoing`: nothing does behind the shading normal, as in Mitsuba,
+/// unless the light has two sides.
 template <typename Real>
-Real lightCosine(const Light<Real>& light, const Vec3<Real>& normal, const Vec3<Real>& outgoing) {
-    const Real cosine = glm::dot(normal, outgoing);
-    return light.isTwoSided && cosine < 0 ? -cosine : std::max(Real(0), cosine);
+Real lightCosine(const Light<Real>& light, const Vec3<Real>& geometricNormal, const Vec3<Real>& shadingNormal,
+                 const Vec3<Real>& outgoing) {
+    if (!light.isTwoSided && !(glm::dot(shadingNormal, outgoing) > 0)) return 0;
+    return std::abs(glm::dot(geometricNormal, outgoing));
 }
 
 /// Radiance of an area light at (u, v) of its surface.
@@ -24,12 +26,13 @@ Vec3<Real> emissionAt(const SceneView<Real>& scene, const Light<Real>& light, co
     return light.emission * textureAt(scene.source, light.texture, uv);
 }
 
-/// 1 - cos of the half angle under which a sphere is seen; nothing from inside.
+/// 1 - cos of the half angle under which a sphere is seen; nothing from inside, and from so close that rounding could
+/// take a point of the sphere for one outside.
 template <typename Real>
 std::optional<Real> oneMinusCosCone(const Sphere<Real>& sphere, const Vec3<Real>& position) {
     const Vec3<Real> toCenter = sphere.center - position;
     const Real sin2 = sphere.radius * sphere.radius / glm::dot(toCenter, toCenter);
-    if (!(sin2 < 1)) return std::nullopt;
+    if (!(sin2 < Real(shared::kFarthestCone))) return std::nullopt;
     return sin2 / (1 + std::sqrt(1 - sin2));
 }
 
@@ -54,13 +57,14 @@ std::optional<LightSample<Real>> sampleSphereLight(const SceneView<Real>& scene,
 template <typename Real>
 std::optional<LightSample<Real>> sampleArea(const SceneView<Real>& scene, const Light<Real>& light,
                                             const Vec3<Real>& position, const Vec3<Real>& point, const Vec2<Real>& uv,
-                                            const Vec3<Real>& normal, Real area, std::uint32_t primitive) {
+                                            const Vec3<Real>& geometricNormal, const Vec3<Real>& shadingNormal,
+                                            Real area, std::uint32_t primitive) {
     const Vec3<Real> toLight = point - position;
     const Real distance2 = glm::dot(toLight, toLight);
     if (distance2 == 0) return std::nullopt;
     const Real distance = std::sqrt(distance2);
     const Vec3<Real> direction = toLight / distance;
-    const Real cosine = lightCosine(light, normal, -direction);
+    const Real cosine = lightCosine(light, geometricNormal, shadingNormal, -direction);
     if (cosine == 0) return std::nullopt;
     const Real pdf = light.selection * distance2 / (area * cosine);
     return LightSample<Real>{direction, distance, primitive, emissionAt(scene, light, uv) / pdf, pdf, false};
@@ -74,10 +78,9 @@ std::optional<LightSample<Real>> sampleMeshLight(const SceneView<Real>& scene, c
     const std::uint32_t primitive = scene.source.lightTriangles[light.cdfOffset + firstAbove(cdf, selector)];
     const std::uint32_t triangle = primitive - scene.firstTriangle;
     const Vec3<Real> b = uniformTriangle(u);
-    const Vec3<Real> point =
-        b.x * scene.vertex(triangle, 0) + b.y * scene.vertex(triangle, 1) + b.z * scene.vertex(triangle, 2);
-    const Vec2<Real> uv = light.texture == kNone ? Vec2<Real>(0) : triangleUv(scene, triangle, Vec2<Real>(b.y, b.z));
-    return sampleArea(scene, light, position, point, uv, triangleNormal(scene, triangle), light.area, primitive);
+    const Surface<Real> surface = triangleSurface(scene, triangle, Vec2<Real>(b.y, b.z));
+    return sampleArea(scene, light, position, surface.position, surface.uv, surface.geometricNormal,
+                      surface.shadingNormal, light.area, primitive);
 }
 
 }  // namespace parhelion::reference

@@ -4,8 +4,6 @@
 
 #include "reference/light/area_light.h"
 #include "reference/light/surrounding.h"
-#include "reference/sampling/distribution.h"
-#include "reference/sampling/warp.h"
 
 namespace parhelion::reference {
 
@@ -46,7 +44,7 @@ std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const
         case shared::kLightQuad: {
             const Quad<Real>& quad = scene.quads[light.primitive];
             const Vec3<Real> point = quad.corner + uv.x * quad.edgeU + uv.y * quad.edgeV;
-            return sampleArea(scene, light, position, point, uv, quad.normal, quad.area, light.primitive);
+            return sampleArea(scene, light, position, point, uv, quad.normal, quad.normal, quad.area, light.primitive);
         }
         case shared::kLightSphere:
             return sampleSphereLight(scene, light, position, uv);
@@ -66,10 +64,10 @@ std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const
 }
 
 /// Density, per steradian and selection included, with which sampleLight at `origin` chooses the light met at
-/// `distance` along `direction`, where the light's normal is `normal`. Infinite distance: the environment.
+/// `distance` along `direction` under `cosine` (see lightCosine). Infinite distance: the environment.
 template <typename Real>
 Real lightPdf(const SceneView<Real>& scene, const Light<Real>& light, const Vec3<Real>& origin,
-              const Vec3<Real>& direction, Real distance, const Vec3<Real>& normal) {
+              const Vec3<Real>& direction, Real distance, Real cosine) {
     if (light.selection == 0) return 0;
     if (light.type == shared::kLightEnvironment) return light.selection / (4 * kPi<Real>);
     if (light.type == shared::kLightEnvironmentMap) return light.selection * environmentAt(scene, direction).pdf;
@@ -80,7 +78,7 @@ Real lightPdf(const SceneView<Real>& scene, const Light<Real>& light, const Vec3
         return cone ? light.selection / (2 * kPi<Real> * *cone) : Real(0);
     }
     const Real area = light.type == shared::kLightQuad ? scene.quads[light.primitive].area : light.area;
-    return light.selection * distance * distance / (area * lightCosine(light, normal, -direction));
+    return light.selection * distance * distance / (area * cosine);
 }
 
 }  // namespace parhelion::reference

@@ -5,6 +5,7 @@
 #include "reference/light/environment.h"
 #include "reference/light/light_sample.h"
 #include "reference/light/sky.h"
+#include "reference/sampling/warp.h"
 
 namespace parhelion::reference {
 

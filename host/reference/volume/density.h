@@ -36,35 +36,6 @@ glm::ivec3 stochasticCorner(const Vec3<Real>& gridPosition, const Vec3<Real>& u)
     return low + glm::ivec3(u.x < fraction.x, u.y < fraction.y, u.z < fraction.z);
 }
 
-/// Density of one corner, chosen by three uniforms: unbiased, for density enters every estimator linearly.
-template <typename Real>
-Real stochasticDensity(const Medium<Real>& medium, const Vec3<Real>& gridPosition, const Vec3<Real>& offsets) {
-    return densityVoxel(medium, stochasticCorner(gridPosition, offsets));
-}
-
-/// Trilinear interpolation between voxel centres.
-template <typename Real>
-Real trilinearDensity(const Medium<Real>& medium, const Vec3<Real>& gridPosition) {
-    const Vec3<Real> s = gridPosition - Real(0.5);
-    const glm::ivec3 i = floorToInt(s);
-    const Vec3<Real> f = s - Vec3<Real>(i);
-    const auto alongX = [&](int y, int z) {
-        const Real a = densityVoxel(medium, i + glm::ivec3(0, y, z)), b = densityVoxel(medium, i + glm::ivec3(1, y, z));
-        return a * (1 - f.x) + b * f.x;
-    };
-    const Real near = alongX(0, 0) * (1 - f.y) + alongX(1, 0) * f.y;
-    const Real far = alongX(0, 1) * (1 - f.y) + alongX(1, 1) * f.y;
-    return near * (1 - f.z) + far * f.z;
-}
-
-/// Density at a position in voxel units, from one corner (unbiased) or from all eight.
-///
-/// @param offsets  three uniforms that choose the corner.
-template <typename Real>
-Real densityAt(const Medium<Real>& medium, const Vec3<Real>& gridPosition, const Vec3<Real>& offsets, bool stochastic) {
-    return stochastic ? stochasticDensity(medium, gridPosition, offsets) : trilinearDensity(medium, gridPosition);
-}
-
 /// The densities of one voxel of a medium with a value a channel; indices beyond the grid take the nearest one in it.
 template <typename Real>
 Vec3<Real> colorVoxel(const Medium<Real>& medium, const glm::ivec3& index) {
@@ -74,9 +45,15 @@ Vec3<Real> colorVoxel(const Medium<Real>& medium, const glm::ivec3& index) {
     return {Real(values[0]), Real(values[1]), Real(values[2])};
 }
 
-/// Trilinear interpolation of each channel: the sum over the eight corners.
+/// Density of each channel in one voxel.
 template <typename Real>
-Vec3<Real> trilinearColor(const Medium<Real>& medium, const Vec3<Real>& gridPosition) {
+Vec3<Real> voxelAt(const Medium<Real>& medium, const glm::ivec3& index) {
+    return medium.colored ? colorVoxel(medium, index) : Vec3<Real>(densityVoxel(medium, index));
+}
+
+/// Trilinear interpolation between voxel centres: the sum over the eight corners.
+template <typename Real>
+Vec3<Real> trilinearDensity(const Medium<Real>& medium, const Vec3<Real>& gridPosition) {
     const Vec3<Real> s = gridPosition - Real(0.5);
     const glm::ivec3 low = floorToInt(s);
     const Vec3<Real> f = s - Vec3<Real>(low);
@@ -84,19 +61,20 @@ Vec3<Real> trilinearColor(const Medium<Real>& medium, const Vec3<Real>& gridPosi
     for (int corner = 0; corner < 8; ++corner) {
         const glm::ivec3 c(corner & 1, corner >> 1 & 1, corner >> 2);
         const Vec3<Real> w = glm::mix(Real(1) - f, f, Vec3<Real>(c));
-        sum += w.x * w.y * w.z * colorVoxel(medium, low + c);
+        sum += w.x * w.y * w.z * voxelAt(medium, low + c);
     }
     return sum;
 }
 
-/// Density of each channel at a position in voxel units, of a medium with a value a channel.
+/// Density of each channel at a position in voxel units: from one corner (unbiased, for density enters every estimator
+/// linearly) or from all eight.
 ///
 /// @param offsets  three uniforms that choose the corner, the same for all channels.
 template <typename Real>
-Vec3<Real> colorDensityAt(const Medium<Real>& medium, const Vec3<Real>& gridPosition, const Vec3<Real>& offsets,
-                          bool stochastic) {
-    if (stochastic) return colorVoxel(medium, stochasticCorner(gridPosition, offsets));
-    return trilinearColor(medium, gridPosition);
+Vec3<Real> densityAt(const Medium<Real>& medium, const Vec3<Real>& gridPosition, const Vec3<Real>& offsets,
+                     bool stochastic) {
+    if (stochastic) return voxelAt(medium, stochasticCorner(gridPosition, offsets));
+    return trilinearDensity(medium, gridPosition);
 }
 
 /// Single-scattering albedo at a world position; a grid's corner is chosen by three uniforms.

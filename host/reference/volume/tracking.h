@@ -90,8 +90,7 @@ Vec3<Real> densityHere(const PathContext<Real, Trace>& path, const Medium<Real>&
     const Vec3<Real> position = walk.origin + walk.t * walk.direction;
     const Vec3<Real> offsets = cornerOffsets<Real>(words);
     const bool stochastic = path.quality.stochasticFilter;
-    const Vec3<Real> density = medium.colored ? colorDensityAt(medium, position, offsets, stochastic)
-                                              : Vec3<Real>(densityAt(medium, position, offsets, stochastic));
+    const Vec3<Real> density = densityAt(medium, position, offsets, stochastic);
     if (maxComponent(density) > walk.bound) ++path.counters[shared::kCounterMajorantViolations];
     return density;
 }
@@ -102,9 +101,9 @@ Vec3<Real> densityHere(const PathContext<Real, Trace>& path, const Medium<Real>&
 template <typename Real>
 bool decideFlight(const Medium<Real>& medium, const Vec3<Real>& density, Real bound, Real u, int hero,
                   Throughput<Real>& throughput) {
-    if (medium.grey) return u * bound < density.x;
+    const bool isReal = u * bound < medium.sigmaRatio[hero] * density[hero];
+    if (medium.grey) return isReal;
     const Vec3<Real> q = glm::min(Vec3<Real>(1), medium.sigmaRatio * (density / bound));
-    const bool isReal = u < q[hero];
     throughput.scale(isReal ? q / q[hero] : (Real(1) - q) / (1 - q[hero]));
     return isReal;
 }
@@ -124,7 +123,7 @@ bool decideShadow(const Vec3<Real>& q, Real u, Real threshold, Vec3<Real>& weigh
     return true;
 }
 
-/// Reference only: within stepAnalytically in the shader.
+/// Reference only: within stepSegment in the shader.
 template <typename Real, typename Trace>
 std::optional<Real> trackHomogeneousFlight(const PathContext<Real, Trace>& path, const Medium<Real>& medium, Real t,
                                            Real tEnd, std::uint32_t vertex, Residual<Real>& residual,
