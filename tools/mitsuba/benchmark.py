@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Time, variance and efficiency of Parhelion and of Mitsuba 3 on the same scene files, interleaved.
 
-    tools/mitsuba/benchmark.py [--program build/parhelion] [--rounds 5] SCENE.xml ...
+    tools/mitsuba/benchmark.py [--program build/parhelion] [--rounds 5] [-D name=value] SCENE.xml ...
 
 Needs `pip install mitsuba numpy` and libllvm19 (DRJIT_LIBLLVM_PATH). Every round runs each renderer
 once; times are medians over rounds. A pass is one sample per pixel; its time is the difference of
 two renders with different sample counts, so that start-up cancels. Variance is that of images with
 different seeds, times their samples per pixel, mean over pixels and channels: what a stratified
-sampler gains counts. "Trimmed" leaves out the 0.1 % of pixels with the largest variance; every
+sampler gains counts. Parhelion's is measured once, on the first of its rows: they render the same paths.
+"Trimmed" leaves out the 0.1 % of pixels with the largest variance; every
 renderer has the same number of images, since fewer images trim more.
 Efficiency is 1 / (variance * time), relative to Mitsuba. Scenes that Mitsuba cannot read (.grid
 volumes) get no row for it, and efficiencies relative to the float reference.
@@ -74,9 +75,9 @@ class Parhelion:
 
 
 class Mitsuba:
-    def __init__(self, scene, size):
+    def __init__(self, scene, size, defines):
         self.name, self.times = "Mitsuba 3.9.1 llvm_ad_rgb", []
-        self.scene = mi.load_file(scene, size=size)
+        self.scene = mi.load_file(scene, size=size, **dict(define.split("=", 1) for define in defines))
         self.render(0)
 
     def render(self, seed):
@@ -93,22 +94,27 @@ class Mitsuba:
         return mean_variances([self.render(1000 + seed)[1] for seed in range(VARIANCE_SEEDS)], MITSUBA_PASSES)
 
 
-def benchmark(scene, program, rounds, size):
-    contenders = [Parhelion("Vulkan, 16 lanes", program, scene, size, ["--vector-bits", "512"]),
-                  Parhelion("Vulkan, 8 lanes", program, scene, size, ["--vector-bits", "256"]),
-                  Parhelion("float reference", program, scene, size, ["--backend", "reference"])]
+def benchmark(scene, program, rounds, size, defines):
+    given = [word for define in defines for word in ("-D", define)]
+    contenders = [Parhelion("Vulkan, 16 lanes", program, scene, size, ["--vector-bits", "512", *given]),
+                  Parhelion("Vulkan, 8 lanes", program, scene, size, ["--vector-bits", "256", *given]),
+                  Parhelion("float reference", program, scene, size, ["--backend", "reference", *given])]
     try:
-        contenders.append(Mitsuba(scene, size))
+        contenders.append(Mitsuba(scene, size, defines))
     except RuntimeError as error:
         print(f"{scene}: not read by Mitsuba: {str(error).splitlines()[0]}", file=sys.stderr)
     for seed in range(rounds):
         for contender in contenders:
             contender.round(seed)
-    rows = [(c.name, 1e3 * statistics.median(c.times), *c.variances()) for c in contenders]
+    own = contenders[0].variances()
+    rows = [(c.name, 1e3 * statistics.median(c.times), *(own if isinstance(c, Parhelion) else c.variances()))
+            for c in contenders]
     unit = rows[-1]
     for name, ms, full, trimmed in rows:
+        ratios = [f"{unit[1] * theirs / (ms * ours):.1f}" if ours > 1e-12 else "exact"
+                  for theirs, ours in ((unit[2], full), (unit[3], trimmed))]
         print(f"| {pathlib.Path(scene).stem} | {name} | {ms:.1f} | {full:.3g} | {trimmed:.3g} | "
-              f"{unit[1] * unit[2] / (ms * full):.1f} | {unit[1] * unit[3] / (ms * trimmed):.1f} |", flush=True)
+              f"{ratios[0]} | {ratios[1]} |", flush=True)
 
 
 def main():
@@ -117,10 +123,11 @@ def main():
     parser.add_argument("--program", default="build/parhelion")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--size", type=int, default=256)
+    parser.add_argument("-D", "--define", action="append", default=[], metavar="NAME=VALUE", help="as of `parhelion`")
     arguments = parser.parse_args()
     print("| scene | renderer | ms a pass | variance | trimmed | efficiency | trimmed |\n|---|---|---|---|---|---|---|")
     for scene in arguments.scenes:
-        benchmark(scene, arguments.program, arguments.rounds, arguments.size)
+        benchmark(scene, arguments.program, arguments.rounds, arguments.size, arguments.define)
 
 
 if __name__ == "__main__":
