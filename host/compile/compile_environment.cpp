@@ -15,7 +15,6 @@ namespace parhelion {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::uint64_t kMostTexels = std::uint64_t(1) << 27;  // of a texel buffer
 /// Least probability of what has one at all: 8 of the 2^32 words that choose.
 constexpr double kLeastShare = 0x1p-29;
 
@@ -140,9 +139,9 @@ bool isUniform(const Bitmap& map) {
 
 glm::dvec3 compileEnvironment(const EmitterDescription& emitter, bool compensate, CompiledScene& scene) {
     const glm::uvec2 size{emitter.map.size.x, paddedHeight(emitter.map.size.y)};
-    if (std::uint64_t(size.x) * size.y > kMostTexels)
+    if (std::uint64_t(size.x) * size.y > kMaxTexels)
         throw InputError(emitter.where, fmt::format("an environment map must have at most {} texels; got {} x {}",
-                                                    kMostTexels, size.x, emitter.map.size.y));
+                                                    kMaxTexels, size.x, emitter.map.size.y));
     std::vector<glm::vec4> texels = scaledTexels(emitter, size);
     if (std::ranges::all_of(texels, [](const glm::vec4& texel) { return texel == glm::vec4(0.0f); }))
         return glm::dvec3(0.0);

@@ -122,9 +122,8 @@ void writeTriangles(const TriangleSoup& soup, Bvh bvh, std::span<const KeptShape
         scene.triangleUvs.insert(scene.triangleUvs.end(), soup.uvs[i].begin(), soup.uvs[i].end());
 }
 
-/// What a texel buffer can address (2^27 texels, the least that the drivers we run on offer).
 void checkTriangleCount(const TriangleSoup& soup) {
-    constexpr std::size_t kMaxTriangles = (std::size_t(1) << 27) / shared::kBvhNodeTexels;
+    constexpr std::size_t kMaxTriangles = kMaxTexels / shared::kBvhNodeTexels;
     if (soup.vertices.size() > kMaxTriangles)
         throw RuntimeFailure(
             fmt::format("the scene may have at most {} triangles; got {}", kMaxTriangles, soup.vertices.size()));

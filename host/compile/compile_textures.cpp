@@ -103,9 +103,7 @@ private:
         return std::uint32_t(scene_.textures.size() - 1);
     }
 
-    /// What a texel buffer can address (2^27 texels, the least that the drivers we run on offer).
     void appendTexels(const TextureDescription& texture) {
-        constexpr std::size_t kMaxTexels = std::size_t(1) << 27;
         const std::vector<glm::vec3>& texels = texture.bitmap.texels;
         if (scene_.textureTexels.size() + texels.size() > kMaxTexels)
             throw InputError(texture.where, fmt::format("the textures of a scene may have at most {} texels; with this "

@@ -13,6 +13,9 @@
 
 namespace parhelion {
 
+/// What a texel buffer can address: the least of the devices there are.
+inline constexpr std::size_t kMaxTexels = std::size_t(1) << 27;
+
 /// One bit an effect of shaders/shared/effects.h.
 enum class Effect : unsigned {
 #define X(name, id, label) name = id,

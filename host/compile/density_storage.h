@@ -8,9 +8,6 @@
 
 namespace parhelion {
 
-/// Texels of a texel buffer on the devices there are, and so voxels of density a scene may have.
-inline constexpr std::size_t kMaxTexels = std::size_t(1) << 27;
-
 /// Whether to keep these grids as bricks, and what that takes.
 struct DensityPlan {
     bool bricked = false;

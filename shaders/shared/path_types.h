@@ -45,15 +45,18 @@ SHARED_CONST(uint, kCounterVertices, 8u);           // real collisions and surfa
 SHARED_CONST(uint, kCounterActiveLanes, 9u);        // lanes that have samples left
 SHARED_CONST(uint, kCounterCount, 16u);
 
-// Random draws: four words from pcg4d(key.x, key.y, vertex, purpose). Vertex 0 is the camera.
+// Random draws: four words from pcg4d(key.x, key.y, vertex, purpose). Vertex 0 is the camera. What tells purposes apart
+// stands in their low bits: pcg4d carries differences upwards, and words of purposes that differ in their highest bits
+// alone have most of their low bits in common.
 SHARED_CONST(uint, kDrawCamera, 0u);
 SHARED_CONST(uint, kDrawLight, 1u);
 SHARED_CONST(uint, kDrawScatter, 2u);
 SHARED_CONST(uint, kDrawAlbedo, 3u);
 SHARED_CONST(uint, kDrawFeature, 4u);            // the feature pass's film position
 SHARED_CONST(uint, kDrawEnvironment, 5u);        // where on an environment map or sky
-SHARED_CONST(uint, kDrawFlight, 0x40000000u);    // | index of the tentative collision on this ray
-SHARED_CONST(uint, kDrawShadow, 0x80000000u);    // | index of the tentative collision on this ray
+SHARED_CONST(uint, kDrawFlight, 6u);             // | index of the tentative collision on this ray << kDrawIndexShift
+SHARED_CONST(uint, kDrawShadow, 7u);             // | the same
+SHARED_CONST(uint, kDrawIndexShift, 3u);
 
 // A path saved between dispatches: kPathStateWords words, word w of lane l at w * lanes + l. Word
 // kPathSampleWord counts the samples the lane has finished in this window.

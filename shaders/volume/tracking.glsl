@@ -27,8 +27,8 @@ struct Segment {
     vec3 ratio;        // density of the path so far under each hero channel, up to a common factor
 };
 
-// Shader only: spelt out where the reference draws.
-uint segmentPurpose(Segment s) { return (s.shadow ? kDrawShadow : kDrawFlight) | s.collisions; }
+// Shader only: a member of the residual in the reference.
+uint segmentPurpose(Segment s) { return (s.shadow ? kDrawShadow : kDrawFlight) | s.collisions << kDrawIndexShift; }
 
 // Shader only: a member of the medium in the reference.
 bool isHomogeneous(Medium medium) {

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "reference/integrator/camera.h"
 #include "reference/sampling/sampler.h"
@@ -55,6 +57,37 @@ TEST(RandomWords, LowBitsAreUniform) {
     spare.expectFit("spare bits");
     corner.expectFit("corner z");
     defect.expectMisfit("one spare bit in fifty is its neighbour");
+}
+
+/// Of the 128 bits of the draws for two purposes: how far the most telling one is from agreeing half of the time, in
+/// standard errors.
+double worstAgreement(std::uint32_t first, std::uint32_t second) {
+    constexpr int kCount = 4096;
+    std::array<int, 128> same{};
+    for (int i = 0; i < kCount; ++i) {
+        const glm::uvec4 differences = wordsOf(std::uint64_t(i), first) ^ wordsOf(std::uint64_t(i), second);
+        for (int bit = 0; bit < 128; ++bit) same[std::size_t(bit)] += (~differences[bit / 32] >> (bit % 32)) & 1u;
+    }
+    double worst = 0;
+    for (const int count : same) worst = std::max(worst, std::abs(count - kCount / 2.0) / std::sqrt(kCount / 4.0));
+    return worst;
+}
+
+// Draws of one vertex for two purposes are as good as independent (H75): a shadow ray must not meet its collisions
+// where the number that chose its direction says.
+TEST(RandomWords, PurposesShareNoBits) {
+    std::vector<std::uint32_t> purposes{shared::kDrawCamera, shared::kDrawLight,   shared::kDrawScatter,
+                                        shared::kDrawAlbedo, shared::kDrawFeature, shared::kDrawEnvironment};
+    for (std::uint32_t index = 0; index < 6; ++index)
+        for (const std::uint32_t kind : {shared::kDrawFlight, shared::kDrawShadow})
+            purposes.push_back(kind | index << shared::kDrawIndexShift);
+    const double pairs = double(purposes.size() * (purposes.size() - 1) / 2);
+    const double limit = twoSidedThreshold(sidak(significance(), std::size_t(128 * pairs)));
+    for (std::size_t i = 0; i < purposes.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_LT(worstAgreement(purposes[i], purposes[j]), limit) << purposes[i] << ", " << purposes[j];
+    // Purposes that differ in their highest bit alone: the naive way to tell them apart.
+    EXPECT_GT(worstAgreement(shared::kDrawLight, 0x80000000u | shared::kDrawLight), 2 * limit);
 }
 
 using Uniform = std::function<double(std::uint32_t pixel, std::uint32_t sample, std::uint32_t vertex, int word)>;

@@ -29,6 +29,10 @@ struct Residual {
     Real depth;
     std::uint32_t index = 0;  ///< tentative collisions of this ray so far
 
+    /// Names the draw of the collision to come. `kind`: kDrawFlight or kDrawShadow.
+    /// Reference only: segmentPurpose in the shader.
+    std::uint32_t purpose(std::uint32_t kind) const { return kind | index << shared::kDrawIndexShift; }
+
     /// Reference only: the shader keeps the two numbers in its path state.
     void spend(Real opticalDepth) { depth = std::max(Real(0), depth - opticalDepth); }
 
@@ -138,7 +142,7 @@ std::optional<Real> trackHomogeneousFlight(const PathContext<Real, Trace>& path,
         t = collision;
         ++path.counters[shared::kCounterCollisions];
         if (medium.grey) return t;
-        const glm::uvec4 words = draw(path.stream.key, vertex, shared::kDrawFlight | residual.index);
+        const glm::uvec4 words = draw(path.stream.key, vertex, residual.purpose(shared::kDrawFlight));
         residual.renew(words);
         if (decideFlight(medium, Vec3<Real>(1), Real(1), toUniform<Real>(words.x), path.hero, throughput)) return t;
     }
@@ -175,7 +179,7 @@ std::optional<Real> trackFlight(const PathContext<Real, Trace>& path, const Medi
     CellWalk<Real> walk = gridRay(medium, ray.origin, ray.direction);
     if (!clipToGrid(medium, ray.tMin, tEnd, walk)) return std::nullopt;
     while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
-        const glm::uvec4 words = draw(path.stream.key, vertex, shared::kDrawFlight | residual.index);
+        const glm::uvec4 words = draw(path.stream.key, vertex, residual.purpose(shared::kDrawFlight));
         const Vec3<Real> density = densityHere(path, medium, walk, words);
         const Real u = toUniform<Real>(words.x);
         if constexpr (Trace::kIsOn) {
@@ -210,7 +214,7 @@ bool trackShadow(const PathContext<Real, Trace>& path, const Medium<Real>& mediu
     CellWalk<Real> walk = gridRay(medium, ray.origin, ray.direction);
     if (!clipToGrid(medium, ray.tMin, tEnd, walk)) return true;
     while (nextCollision(medium, walk, tEnd, residual, path.counters)) {
-        const glm::uvec4 words = draw(path.stream.key, vertex, shared::kDrawShadow | residual.index);
+        const glm::uvec4 words = draw(path.stream.key, vertex, residual.purpose(shared::kDrawShadow));
         const Vec3<Real> q = medium.sigmaRatio * (densityHere(path, medium, walk, words) / walk.bound);
         const Real u = toUniform<Real>(words.x);
         if constexpr (Trace::kIsOn) {
