@@ -38,7 +38,7 @@ RenderOutcome renderWithVulkan(gpu::Device& device, const CompiledScene& scene, 
     beginRendering(scene, settings, outcome.device, interruption, progress);
     while (renderer.step()) {
         if (interruption.requested()) renderer.finishEarly();
-        progress.update(renderer.progress().samplesDone, [&] { return renderer.film(); });
+        progress.update(renderer.progress().samplesDone, [&] { return renderer.filmSoFar(); });
     }
     outcome.seconds = progress.secondsSinceBegin();
     progress.end();

@@ -41,10 +41,12 @@ std::vector<float> bakeCloud(gpu::Device& device, const shared::CloudField& fiel
     const std::size_t slab = std::min(kVoxelsPerDispatch, density.size());
     gpu::Buffer baseBuffer = device.createBuffer(base.empty() ? 0 : slab * sizeof(float));
     gpu::Buffer densityBuffer = device.createBuffer(slab * sizeof(float));
+    gpu::Buffer argumentBuffer = device.createBuffer(sizeof(shared::CloudArguments));
     gpu::ComputePipeline pipeline(device, gpu::shaderFolder() / "kernels/bake_cloud.comp",
                                   {{128u, field.modulates != 0}});
     const gpu::Binding bindings[] = {{.index = 0, .buffer = baseBuffer.handle()},
-                                     {.index = 1, .buffer = densityBuffer.handle()}};
+                                     {.index = 1, .buffer = densityBuffer.handle()},
+                                     {.index = 2, .buffer = argumentBuffer.handle()}};
     pipeline.bind(bindings);
     shared::CloudArguments arguments = cloudArguments(field, largest);
     for (std::size_t first = 0; first < density.size(); first += slab) {
@@ -52,9 +54,8 @@ std::vector<float> bakeCloud(gpu::Device& device, const shared::CloudField& fiel
         arguments.firstVoxel = static_cast<std::uint32_t>(first);
         arguments.voxelCount = static_cast<std::uint32_t>(count);
         if (!base.empty()) baseBuffer.write(0, std::as_bytes(base.subspan(first, count)));
-        device.submit([&](VkCommandBuffer commands) {
-            pipeline.record(commands, std::as_bytes(std::span(&arguments, 1)), (count + kGroup - 1) / kGroup);
-        });
+        argumentBuffer.write(0, std::as_bytes(std::span(&arguments, 1)));
+        device.submit([&](VkCommandBuffer commands) { pipeline.record(commands, {}, (count + kGroup - 1) / kGroup); });
         std::ranges::copy(densityBuffer.as<float>().first(count), density.begin() + std::ptrdiff_t(first));
     }
     return density;

@@ -45,6 +45,7 @@ DeviceScene::DeviceScene(gpu::Device& device, const CompiledScene& scene) {
     addTexels(device, 23, scene.skyBands, r);
     addTexels(device, 24, scene.stars, rgba);
     addTexels(device, 25, scene.starCells, u);
+    addTexels(device, 27, std::vector<std::uint32_t>{0}, u);
 }
 
 }  // namespace parhelion::render

@@ -29,6 +29,7 @@ PathTracePass::PathTracePass(gpu::Device& device, const DeviceScene& deviceScene
       depthLayers_(depthLayers),
       paths_(device.createBuffer(std::size_t{batches.front().laneCount} * shared::kPathStateWords * 4)),
       counterBuffer_(device.createBuffer(shared::kCounterCount * 4)),
+      argumentBuffer_(device.createBuffer(sizeof(shared::PathArguments))),
       pipeline_(device, gpu::shaderFolder() / "kernels/path_trace.comp", constants) {
     for (const Batch& batch : batches_)
         films_.push_back(device.createBuffer(std::size_t{batch.laneCount} * sizeof(shared::FilmPixel)));
@@ -44,16 +45,17 @@ void PathTracePass::bindFilm(std::size_t batch) {
     pipeline_.bind(withBuffers(scene_.bindings(), {{.index = 12, .buffer = films_[batch].handle()},
                                                    {.index = 13, .buffer = paths_.handle()},
                                                    {.index = 14, .buffer = counterBuffer_.handle()},
-                                                   {.index = 26, .buffer = layers_[layer].handle()}}));
+                                                   {.index = 26, .buffer = layers_[layer].handle()},
+                                                   {.index = 28, .buffer = argumentBuffer_.handle()}}));
     bound_ = batch;
 }
 
 double PathTracePass::run(std::size_t batch, const shared::PathArguments& arguments) {
     if (batch != bound_) bindFilm(batch);
     std::memset(counterBuffer_.data(), 0, counterBuffer_.size());
-    const double ms = device_.submit([&](VkCommandBuffer commands) {
-        pipeline_.record(commands, std::as_bytes(std::span(&arguments, 1)), groupsCovering(arguments.laneCount));
-    });
+    argumentBuffer_.write(0, std::as_bytes(std::span(&arguments, 1)));
+    const double ms = device_.submit(
+        [&](VkCommandBuffer commands) { pipeline_.record(commands, {}, groupsCovering(arguments.laneCount)); });
     std::ranges::copy(counterBuffer_.as<std::uint32_t>(), counters_.begin());
     return ms;
 }
@@ -87,13 +89,15 @@ std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const Comp
                                                  const gpu::Specialisation& constants) {
     const std::uint32_t pixels = scene.cropSize.x * scene.cropSize.y;
     gpu::Buffer counters = device.createBuffer(shared::kCounterCount * 4);
+    gpu::Buffer argumentBuffer = device.createBuffer(sizeof(shared::PathArguments));
     gpu::ComputePipeline pipeline(device, gpu::shaderFolder() / "kernels/features.comp", constants);
     std::vector<shared::FeaturePixel> all;
     for (std::uint32_t first = 0; first < pixels; first += kFeatureLanes) {
         const std::uint32_t lanes = std::min(kFeatureLanes, pixels - first);
         gpu::Buffer features = device.createBuffer(std::size_t{lanes} * sizeof(shared::FeaturePixel));
         pipeline.bind(withBuffers(deviceScene.bindings(), {{.index = 14, .buffer = counters.handle()},
-                                                           {.index = 15, .buffer = features.handle()}}));
+                                                           {.index = 15, .buffer = features.handle()},
+                                                           {.index = 28, .buffer = argumentBuffer.handle()}}));
         for (std::uint32_t sample = 0; sample < settings.featureSamples; ++sample) {
             const shared::PathArguments arguments{.filmSize = scene.filmSize,
                                                   .cropOffset = scene.cropOffset,
@@ -106,9 +110,8 @@ std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const Comp
                                                   .seed = settings.seed,
                                                   .loopBudget = kMaximumCrossings,
                                                   .restart = 0};
-            device.submit([&](VkCommandBuffer commands) {
-                pipeline.record(commands, std::as_bytes(std::span(&arguments, 1)), groupsCovering(lanes));
-            });
+            argumentBuffer.write(0, std::as_bytes(std::span(&arguments, 1)));
+            device.submit([&](VkCommandBuffer commands) { pipeline.record(commands, {}, groupsCovering(lanes)); });
         }
         const auto done = features.as<shared::FeaturePixel>();
         all.insert(all.end(), done.begin(), done.end());

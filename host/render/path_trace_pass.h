@@ -42,7 +42,7 @@ private:
     std::vector<gpu::Buffer> films_;
     std::vector<gpu::Buffer> layers_;  // one that nothing uses, if there are no layers
     std::size_t bound_ = 0;            // batch whose film the pipeline points at
-    gpu::Buffer paths_, counterBuffer_;
+    gpu::Buffer paths_, counterBuffer_, argumentBuffer_;
     gpu::ComputePipeline pipeline_;
     std::array<std::uint32_t, shared::kCounterCount> counters_{};
 

@@ -186,7 +186,7 @@ Progress Renderer::progress() const {
     return {s.pathsDone(), s.pixels() * static_cast<double>(s.settings.sampleCount), s.lastMs};
 }
 
-Film Renderer::film() {
+Film Renderer::filmSoFar() {
     State& s = *state_;
     Film film;
     film.filmSize = s.scene.filmSize;
@@ -197,6 +197,12 @@ Film Renderer::film() {
     film.depthLayers = s.scene.constants.depthLayers;
     film.layers = s.pass.layers();
     film.counters = s.counters;
+    return film;
+}
+
+Film Renderer::film() {
+    State& s = *state_;
+    Film film = filmSoFar();
     film.features = renderFeatures(s.device, s.scene, s.deviceScene, s.settings, s.constants);
     film.featureSamples = s.settings.featureSamples;
     return film;

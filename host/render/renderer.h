@@ -33,7 +33,10 @@ public:
     /// No further samples are begun but for pixels that are behind: step() returns false once all have equally many.
     void finishEarly();
     Progress progress() const;
-    /// The film so far: within a window with the samples of each pixel, and `samples` those all pixels have.
+    /// The film so far, without features: within a window with the samples of each pixel, and `samples` those all
+    /// pixels have.
+    Film filmSoFar();
+    /// The same with features, which are rendered for it.
     Film film();
 
 private:

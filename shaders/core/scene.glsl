@@ -7,7 +7,7 @@
 #include "shared/path_types.h"
 #include "shared/scene_types.h"
 
-layout(set = 0, binding = 0, scalar) uniform SceneBlock { SceneConstants scene; };
+layout(set = 0, binding = 0, scalar) uniform SceneBlock { SceneConstants scenes[1]; };
 layout(set = 0, binding = 1) uniform samplerBuffer shapeTexels;         // 2 a shape
 layout(set = 0, binding = 2) uniform samplerBuffer bvhTexels;           // kBvhNodeTexels a node
 layout(set = 0, binding = 3) uniform samplerBuffer triangleTexels;      // kTriangleTexels a triangle
@@ -29,6 +29,13 @@ layout(set = 0, binding = 22) uniform samplerBuffer environmentRows;    // of ea
 layout(set = 0, binding = 23) uniform samplerBuffer skyBands;           // density of each band per steradian
 layout(set = 0, binding = 24) uniform samplerBuffer starTexels;         // 2 a star
 layout(set = 0, binding = 25) uniform usamplerBuffer starCells;
+layout(set = 0, binding = 27) uniform usamplerBuffer sceneNumber;       // 0
+
+// The scene's place in its block comes from a texel, so that no offset into the block is a constant. Where a branch
+// depends on nothing but words at constant offsets of a uniform block or of push constants, Mesa 22's software driver
+// takes their values for constants: it compiles the kernel again at every submission, and keeps what it compiled.
+uint sceneIndex = texelFetch(sceneNumber, 0).x;
+#define scene scenes[sceneIndex]
 
 // Private copies of what the path loop reads all the time. A load from the uniform block is a gather on
 // the software driver, whatever its offset, and none is moved out of a loop; these are registers.

@@ -5,9 +5,11 @@
 
 #include "integrator/path_tracer.glsl"
 
-layout(push_constant, scalar) uniform Push { PathArguments arguments; };
+layout(set = 0, binding = 28, scalar) readonly buffer ArgumentBlock { PathArguments submitted; };
 layout(set = 0, binding = 12, scalar) buffer FilmBlock { FilmPixel film[]; };
 layout(set = 0, binding = 14, scalar) buffer CounterBlock { uint counters[]; };
+
+PathArguments arguments = submitted;
 
 // Shader only: groups are dealt out so that the first and the second half of the list, which the
 // driver gives to different threads, cost the same.

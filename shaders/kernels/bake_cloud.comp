@@ -7,15 +7,15 @@ layout(local_size_x = 64) in;
 
 #include "volume/procedural_cloud.glsl"
 
-layout(push_constant, scalar) uniform Push { CloudArguments arguments; };
 layout(set = 0, binding = 0, scalar) readonly buffer BaseBlock { float base[]; };
 layout(set = 0, binding = 1, scalar) writeonly buffer DensityBlock { float density[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer ArgumentBlock { CloudArguments submitted; };
 layout(constant_id = 128) const bool modulates = false;  // clear of effects and quality
 
 void main() {
     uint lane = gl_GlobalInvocationID.x;
-    if (lane >= arguments.voxelCount) return;
-    CloudArguments cloud = arguments;
+    CloudArguments cloud = submitted;
+    if (lane >= cloud.voxelCount) return;
     cloud.modulates = modulates ? 1u : 0u;
     uint voxel = cloud.firstVoxel + lane;
     uint row = voxel / cloud.resolution.x;

@@ -8,9 +8,11 @@ layout(local_size_x = 64) in;
 
 #include "integrator/features.glsl"
 
-layout(push_constant, scalar) uniform Push { PathArguments arguments; };
+layout(set = 0, binding = 28, scalar) readonly buffer ArgumentBlock { PathArguments submitted; };
 layout(set = 0, binding = 14, scalar) buffer CounterBlock { uint counters[]; };
 layout(set = 0, binding = 15, scalar) buffer FeatureBlock { FeaturePixel features[]; };
+
+PathArguments arguments = submitted;
 
 void main() {
     loadScene();

@@ -43,10 +43,12 @@ private:
 GpuEnvironment& environment = *static_cast<GpuEnvironment*>(testing::AddGlobalTestEnvironment(new GpuEnvironment));
 
 struct ProbeArguments {
-    std::uint32_t function, count, inputsPerItem, outputsPerItem;
+    std::uint32_t count, inputsPerItem, outputsPerItem;
 };
 
-constexpr std::uint32_t kProbeInputs = 30, kProbeOutputs = 31, kProbeGroup = 64;  // of probe.glsl
+// Of probe.glsl.
+constexpr std::uint32_t kProbeFunction = 255, kProbeArguments = 29, kProbeInputs = 30, kProbeOutputs = 31;
+constexpr std::uint32_t kProbeGroup = 64;
 
 std::filesystem::path testFolder() { return std::filesystem::path(__FILE__).parent_path().parent_path(); }
 
@@ -67,16 +69,20 @@ std::vector<glm::vec4> probe(const std::filesystem::path& shader, std::uint32_t 
     gpu::Buffer inputBuffer = device.createBuffer(inputs.size_bytes());
     gpu::Buffer outputBuffer = device.createBuffer(std::size_t{count} * outputsPerItem * sizeof(glm::vec4));
     inputBuffer.write(0, std::as_bytes(inputs));
+    const ProbeArguments arguments{count, inputsPerItem, outputsPerItem};
+    gpu::Buffer argumentBuffer = device.createBuffer(sizeof arguments);
+    argumentBuffer.write(0, std::as_bytes(std::span(&arguments, 1)));
     std::vector<gpu::Binding> bindings(extra.begin(), extra.end());
+    bindings.push_back({.index = kProbeArguments, .buffer = argumentBuffer.handle()});
     bindings.push_back({.index = kProbeInputs, .buffer = inputBuffer.handle()});
     bindings.push_back({.index = kProbeOutputs, .buffer = outputBuffer.handle()});
 
-    gpu::ComputePipeline pipeline(device, testFolder() / shader, constants);
+    gpu::Specialisation withFunction = constants;
+    withFunction[kProbeFunction] = function;
+    gpu::ComputePipeline pipeline(device, testFolder() / shader, withFunction);
     pipeline.bind(bindings);
-    const ProbeArguments arguments{function, count, inputsPerItem, outputsPerItem};
-    device.submit([&](VkCommandBuffer commands) {
-        pipeline.record(commands, std::as_bytes(std::span(&arguments, 1)), (count + kProbeGroup - 1) / kProbeGroup);
-    });
+    device.submit(
+        [&](VkCommandBuffer commands) { pipeline.record(commands, {}, (count + kProbeGroup - 1) / kProbeGroup); });
     const auto outputs = outputBuffer.as<glm::vec4>();
     return {outputs.begin(), outputs.end()};
 }

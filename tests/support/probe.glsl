@@ -2,7 +2,8 @@
 //
 // A parity shader includes this, then the modules under test, and defines probeItem(): a switch over
 // probeFunction that reads probeInput(0), probeInput(1), ... and calls probeOutput(0, ...), ...
-// Bindings 30 and 31 leave those of core/scene.glsl free.
+// Bindings 29 to 31 and constant 255 leave those of core/scene.glsl and core/effects.glsl free. No push constants: the
+// software driver would compile the shader once more for their values.
 #ifndef SUPPORT_PROBE_GLSL
 #define SUPPORT_PROBE_GLSL
 
@@ -10,8 +11,8 @@ layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 30, std430) readonly buffer ProbeInputs { vec4 probeInputs[]; };
 layout(set = 0, binding = 31, std430) writeonly buffer ProbeOutputs { vec4 probeOutputs[]; };
-layout(push_constant) uniform ProbeArguments {
-    uint probeFunction;
+layout(constant_id = 255) const uint probeFunction = 0u;
+layout(set = 0, binding = 29, std430) readonly buffer ProbeArguments {
     uint probeCount;
     uint probeInputsPerItem;
     uint probeOutputsPerItem;

@@ -31,6 +31,7 @@ public:
     /// Waits until the child has written `text` to its standard error. False after the limit, or when it ended first.
     bool waitForError(const std::string& text, std::chrono::seconds limit = std::chrono::seconds(60));
     void signal(int number) const;
+    pid_t process() const { return process_; }  ///< -1 once it has ended
     /// Waits for the end; kills the child after the limit, which shows as exit code -SIGKILL.
     ProgramResult wait(std::chrono::seconds limit = std::chrono::seconds(120));
 
