@@ -107,6 +107,18 @@ std::size_t countNonFinite(std::span<const Image> images) {
     return count;
 }
 
+/// Images of the first side that are also among those of the second.
+std::size_t countShared(std::span<const Image> a, std::span<const Image> b) {
+    const auto isSame = [](const Image& one, const Image& other) {
+        return std::ranges::all_of(kComparedChannels, [&](const char* channel) {
+            return one.channels.at(channel) == other.channels.at(channel);
+        });
+    };
+    return static_cast<std::size_t>(std::ranges::count_if(a, [&](const Image& one) {
+        return std::ranges::any_of(b, [&](const Image& other) { return isSame(one, other); });
+    }));
+}
+
 double median(std::vector<double>& values) {
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -211,6 +223,7 @@ ImageAgreement testAgreement(std::span<const Image> a, std::span<const Image> b,
     result.seedsB = b.size();
     result.nonFinite = countNonFinite(a) + countNonFinite(b);
     if (result.nonFinite > 0) return result;  // any mean they enter would say nothing
+    result.shared = countShared(a, b);
     std::vector<SidePair> pairs;
     for (const char* channel : kComparedChannels)
         pairs.push_back(
@@ -239,6 +252,8 @@ ImageAgreement testAgreement(std::span<const Image> a, const Image& reference, s
 
 std::string describe(const ImageAgreement& agreement) {
     std::string text = fmt::format("{} and {} images\n", agreement.seedsA, agreement.seedsB);
+    if (agreement.shared > 0)
+        text += fmt::format("identical on both sides: {} images, without noise or not independent\n", agreement.shared);
     if (agreement.nonFinite > 0) return text + fmt::format("values not finite: {}: DIFFERS\n", agreement.nonFinite);
     for (const ChannelAgreement& channel : agreement.channels) text += describeChannel(channel);
     return text + describeScale("image means", agreement.means) + describeScale("8 x 8 tiles", agreement.tiles) +

@@ -50,6 +50,7 @@ struct ChannelAgreement {
 struct ImageAgreement {
     std::size_t seedsA = 0;
     std::size_t seedsB = 0;
+    std::size_t shared = 0;     ///< images of one side that the other has to the bit: without noise, or not independent
     std::size_t nonFinite = 0;  ///< values that are NaN or infinite in any image: they fail the test
     std::vector<ChannelAgreement> channels;
     ScaleAgreement means;   ///< of the whole image: finds a global bias

@@ -1,9 +1,7 @@
 #include "analysis/compare.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <iterator>
+#include <bit>
 
 #include "analysis/image_pair.h"
 #include "analysis/tiles.h"
@@ -12,9 +10,9 @@ namespace parhelion {
 
 namespace {
 
-std::vector<ChannelPair> pairChannels(const Image& a, const Image& b) {
-    requireComparable(a, a.size, "the first image");
-    requireComparable(b, a.size, "the second image");
+std::vector<ChannelPair> pairChannels(const Image& a, const Image& b, const ComparisonOptions& options) {
+    requireComparable(a, a.size, options.names[0]);
+    requireComparable(b, a.size, options.names[1]);
     std::vector<ChannelPair> pairs;
     for (const char* channel : kComparedChannels) pairs.emplace_back(a, b, channel);
     return pairs;
@@ -50,6 +48,17 @@ double relativeMseEpsilon(const std::vector<ChannelPair>& pairs) {
     return std::pow(0.01 * scale, 2);
 }
 
+void countValues(const std::vector<ChannelPair>& pairs, ImageComparison& result) {
+    for (const ChannelPair& pair : pairs)
+        for (std::size_t i = 0; i < pair.a().size(); ++i) {
+            ++result.values;
+            result.differing += std::bit_cast<std::uint32_t>(pair.a()[i]) != std::bit_cast<std::uint32_t>(pair.b()[i]);
+            result.nonFinite += !pair.isFinite(i);
+            result.nonFiniteA += !pair.isFiniteInA(i);
+            result.nonFiniteB += !pair.isFiniteInB(i);
+        }
+}
+
 void measureErrors(const std::vector<ChannelPair>& pairs, ImageComparison& result) {
     result.relativeMseEpsilon = relativeMseEpsilon(pairs);
     std::size_t count = 0;
@@ -62,7 +71,6 @@ void measureErrors(const std::vector<ChannelPair>& pairs, ImageComparison& resul
         // Infinite against a black image; nothing against nothing is no error.
         if (difference != 0) result.relativeMse += difference * difference / (b * b + result.relativeMseEpsilon);
     });
-    result.nonFinite = pairs.size() * pairs.front().a().size() - count;
     const double divisor = static_cast<double>(std::max<std::size_t>(count, 1));
     for (double* sum : {&result.meanSquaredError, &result.meanAbsoluteError, &result.relativeMse}) *sum /= divisor;
 }
@@ -94,20 +102,6 @@ LargestDeviation largestDeviation(const std::vector<ChannelPair>& pairs, const s
     return largest;
 }
 
-std::string_view nameOf(NoiseSource source) {
-    switch (source) {
-        case NoiseSource::none:
-            return "unknown: no variance layers, so no test";
-        case NoiseSource::imageA:
-            return "of the first image; the second counts as exact";
-        case NoiseSource::imageB:
-            return "of the second image; the first counts as exact";
-        case NoiseSource::both:
-            return "of both images";
-    }
-    return "";
-}
-
 }  // namespace
 
 void LargestDeviation::consider(const StudentDeviate& deviate, const std::string& itsChannel, glm::uvec2 itsPixel) {
@@ -120,15 +114,31 @@ void LargestDeviation::consider(const StudentDeviate& deviate, const std::string
     pixel = itsPixel;
 }
 
+ComparisonVerdict ImageComparison::verdict() const {
+    if (differing == 0 || (nonFinite == 0 && maxAbsoluteError == 0)) return ComparisonVerdict::identical;
+    if (nonFinite > 0) return ComparisonVerdict::notFinite;
+    if (noise == NoiseSource::none) return ComparisonVerdict::noiseUnknown;
+    if (!agree()) return ComparisonVerdict::differ;
+    if (budget && budget->isMore()) return ComparisonVerdict::moreNoise;
+    return budget && budget->isLess() ? ComparisonVerdict::lessNoise : ComparisonVerdict::agree;
+}
+
 bool ImageComparison::agree() const {
     if (nonFinite > 0) return false;
     if (!means || !tiles || !pixels) return maxAbsoluteError == 0;
     return means->passed() && tiles->passed() && pixels->passed();
 }
 
+bool ImageComparison::isNoiseAlone() const {
+    return budget && !budget->isLess() ? nonFinite == 0 && !budget->isMore() : agree();
+}
+
+bool ImageComparison::hasIndependentNoise() const { return isNoiseAlone() && !(budget && budget->isLess()); }
+
 ImageComparison compareImages(const Image& a, const Image& b, const ComparisonOptions& options) {
-    const std::vector<ChannelPair> pairs = pairChannels(a, b);
+    const std::vector<ChannelPair> pairs = pairChannels(a, b, options);
     ImageComparison result;
+    countValues(pairs, result);
     measureErrors(pairs, result);
     for (const ChannelPair& pair : pairs) result.channels.push_back(meansOf(pair, a.size, options));
     result.noise = noiseOf(pairs);
@@ -142,7 +152,7 @@ ImageComparison compareImages(const Image& a, const Image& b, const ComparisonOp
 }
 
 Image errorImage(const Image& a, const Image& b, const ComparisonOptions& options) {
-    const std::vector<ChannelPair> pairs = pairChannels(a, b);
+    const std::vector<ChannelPair> pairs = pairChannels(a, b, options);
     const bool noisy = noiseOf(pairs) != NoiseSource::none;
     const std::vector<PixelRect> pixels = tilesOf(a.size, 1);
     Image image{.size = a.size, .channels = {}, .attributes = {}};
@@ -157,46 +167,6 @@ Image errorImage(const Image& a, const Image& b, const ComparisonOptions& option
         }
     }
     return image;
-}
-
-std::string describe(const LargestDeviation& deviation) {
-    return fmt::format("largest |z| {:.2f}, limit {:.2f} for {} tests{}: {}", std::abs(deviation.z),
-                       deviation.threshold, deviation.tests,
-                       deviation.channel.empty() ? ""
-                                                 : fmt::format(", channel {} at pixel ({}, {})", deviation.channel,
-                                                               deviation.pixel.x, deviation.pixel.y),
-                       deviation.passed() ? "agrees" : "DIFFERS");
-}
-
-std::string describe(const NoiseBudget& budget) {
-    return fmt::format(
-        "squared error over both variances: {:.4f} [{:.4f}, {:.4f}], z {:.2f}, limit {:.2f}: {}\n"
-        "systematic difference: at most {:.3g}, root mean square over pixels\n",
-        budget.ratio, budget.ratioConfidence[0], budget.ratioConfidence[1], budget.z, budget.threshold,
-        budget.passed() ? "noise alone" : "NOT NOISE ALONE", budget.largestBias);
-}
-
-std::string describe(const ImageComparison& comparison) {
-    std::string text = fmt::format(
-        "mean squared error {:.6g}, mean absolute error {:.6g}, largest error {:.6g}\n"
-        "relative mean squared error {:.6g} (epsilon {:.3g})\n",
-        comparison.meanSquaredError, comparison.meanAbsoluteError, comparison.maxAbsoluteError, comparison.relativeMse,
-        comparison.relativeMseEpsilon);
-    const auto out = std::back_inserter(text);
-    for (const ChannelMeans& means : comparison.channels) {
-        fmt::format_to(out, "mean {}: {:.8g} against {:.8g}", means.channel, means.meanA, means.meanB);
-        if (means.ratio) fmt::format_to(out, ", ratio {:.6f}", *means.ratio);
-        if (const auto& interval = means.ratioConfidence)
-            fmt::format_to(out, " [{:.6f}, {:.6f}]", (*interval)[0], (*interval)[1]);
-        text += '\n';
-    }
-    if (comparison.nonFinite > 0) fmt::format_to(out, "values not finite: {}\n", comparison.nonFinite);
-    fmt::format_to(out, "noise {}\n", nameOf(comparison.noise));
-    if (comparison.budget) fmt::format_to(out, "{}", describe(*comparison.budget));
-    if (comparison.means) fmt::format_to(out, "image means: {}\n", describe(*comparison.means));
-    if (comparison.tiles) fmt::format_to(out, "8 x 8 tiles: {}\n", describe(*comparison.tiles));
-    if (comparison.pixels) fmt::format_to(out, "pixels: {}\n", describe(*comparison.pixels));
-    return text;
 }
 
 }  // namespace parhelion

@@ -25,6 +25,24 @@ double degreesOfFreedomOf(const Image& image) {
     return std::max<double>(1, static_cast<double>(std::get<std::int64_t>(found->second)) - 1);
 }
 
+/// A test needs the noise of every channel, and no noise is negative.
+void requireVariances(const Image& image, const std::string& name) {
+    const auto nameOf = [](const char* channel) { return std::string("variance.") + channel; };
+    const auto given = std::ranges::find_if(kComparedChannels, [&](auto* c) { return image.has(nameOf(c)); });
+    if (given == kComparedChannels.end()) return;
+    for (const char* channel : kComparedChannels) {
+        if (!image.has(nameOf(channel)))
+            throw InputError(fmt::format("{} has a channel '{}' and no '{}': the variances of R, G and B go together",
+                                         name, nameOf(*given), nameOf(channel)));
+        const std::vector<float>& variances = image.channels.at(nameOf(channel));
+        const auto negative = std::ranges::find_if(variances, [](float x) { return x < 0; });
+        if (negative == variances.end()) continue;
+        const auto index = static_cast<std::size_t>(negative - variances.begin());
+        throw InputError(fmt::format("{}: '{}' must be >= 0; got {} at pixel ({}, {})", name, nameOf(channel),
+                                     *negative, index % image.size.x, index / image.size.x));
+    }
+}
+
 }  // namespace
 
 void requireComparable(const Image& image, glm::uvec2 size, const std::string& name) {
@@ -35,6 +53,7 @@ void requireComparable(const Image& image, glm::uvec2 size, const std::string& n
         if (!image.has(channel))
             throw InputError(
                 fmt::format("images to compare must have channels R, G and B; {} has no '{}'", name, channel));
+    requireVariances(image, name);
 }
 
 ChannelPair::Side::Side(const Image& image, const std::string& channel)

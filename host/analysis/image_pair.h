@@ -13,7 +13,9 @@ namespace parhelion {
 inline constexpr std::array<const char*, 3> kComparedChannels{"R", "G", "B"};
 
 /// @param name  what the message calls the image.
-/// @throws InputError unless the image has the size and the channels R, G and B.
+/// @throws InputError unless the image has the size and the channels R, G and B, and variances of all three or none,
+/// none
+///         of them negative.
 void requireComparable(const Image& image, glm::uvec2 size, const std::string& name);
 
 /// Means over the same pixels of two images.
@@ -34,7 +36,9 @@ public:
     bool knowsNoiseOfB() const { return !sideB_.variances.empty(); }
 
     /// Both values, and the variances there are, are finite.
-    bool isFinite(std::size_t pixel) const { return sideA_.isFinite(pixel) && sideB_.isFinite(pixel); }
+    bool isFinite(std::size_t pixel) const { return isFiniteInA(pixel) && isFiniteInB(pixel); }
+    bool isFiniteInA(std::size_t pixel) const { return sideA_.isFinite(pixel); }
+    bool isFiniteInB(std::size_t pixel) const { return sideB_.isFinite(pixel); }
 
     /// Means over a rectangle, of the pixels that are finite in both; pixels count as independent.
     MeanPair means(const PixelRect& rect) const;

@@ -1,6 +1,7 @@
 #include "analysis/noise_budget.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/tiles.h"
 
@@ -8,7 +9,7 @@ namespace parhelion {
 
 std::optional<NoiseBudget> noiseBudget(std::span<const ChannelPair> pairs, glm::uvec2 size, double significance,
                                        double confidence) {
-    RunningMoments excess, variances;
+    RunningMoments squaredErrors, excess, variances;
     for (const PixelRect& pixel : tilesOf(size, 1)) {
         const std::size_t index = std::size_t{pixel.offset.y} * size.x + pixel.offset.x;
         if (!std::ranges::all_of(pairs, [&](const ChannelPair& pair) { return pair.isFinite(index); })) continue;
@@ -18,6 +19,7 @@ std::optional<NoiseBudget> noiseBudget(std::span<const ChannelPair> pairs, glm::
             squares += std::pow(means.a.value - means.b.value, 2) / double(pairs.size());
             variance += (means.a.noise.variance() + means.b.noise.variance()) / double(pairs.size());
         }
+        squaredErrors.add(squares);
         excess.add(squares - variance);
         variances.add(variance);
     }
@@ -25,10 +27,14 @@ std::optional<NoiseBudget> noiseBudget(std::span<const ChannelPair> pairs, glm::
     const double error = excess.standardError(), unit = variances.mean();
     const double reach = normalQuantile((1 + confidence) / 2) * error;
     NoiseBudget budget{.expected = unit, .ratio = 1 + excess.mean() / unit};
-    budget.ratioConfidence = {budget.ratio - reach / unit, budget.ratio + reach / unit};
+    budget.ratioConfidence = {std::max(0.0, budget.ratio - reach / unit), budget.ratio + reach / unit};
     budget.z = zTest(excess.mean(), 0, error).z;
     budget.threshold = twoSidedThreshold(significance);
-    budget.largestBias = std::sqrt(std::max(0.0, excess.mean() + normalQuantile(confidence) * error));
+    // The squared bias is at most the squared error. Noise that is known to be independent may be taken off it; a bound
+    // of what is left starts at 0, the least that a square can be.
+    const double square = budget.isLess() ? squaredErrors.mean() : std::max(0.0, excess.mean());
+    const double uncertainty = budget.isLess() ? squaredErrors.standardError() : error;
+    budget.largestBias = std::sqrt(square + normalQuantile(confidence) * uncertainty);
     return budget;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <span>
 
@@ -15,12 +14,16 @@ struct NoiseBudget {
     double expected = 0;                          ///< mean over pixels and channels of both variances
     double ratio = 0;                             ///< mean squared error / expected
     std::array<double, 2> ratioConfidence{0, 0};  ///< of it
-    double z = 0;                                 ///< of mean squared error - expected
-    double threshold = 0;                         ///< |z| beyond which the error is not that of noise
+    double z = 0;          ///< of mean squared error - expected; infinite where every pixel says the same
+    double threshold = 0;  ///< |z| beyond which the error is not that of independent noise
     /// Upper bound of the root mean square over pixels of the systematic difference, one-sided, at the confidence.
     double largestBias = 0;
 
-    bool passed() const { return std::abs(z) <= threshold; }
+    /// More than noise: a systematic difference, or variances that are too small.
+    bool isMore() const { return z > threshold; }
+    /// Less than independent images would have: they share random numbers, so that their noise cancels in part, or the
+    /// variances are too large, as those estimated from stratified points or before a filter are.
+    bool isLess() const { return z < -threshold; }
 };
 
 /// The noise of the noise comes from the spread over pixels of squared error - variances, so that heavy tails and

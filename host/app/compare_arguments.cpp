@@ -2,8 +2,32 @@
 
 namespace parhelion::app {
 
+namespace {
+
+constexpr double kMax = 1e300;
+
+void addLimits(CLI::App& command, CompareArguments& arguments) {
+    addNumberOption(command, "--max-mse", arguments.maxMse, 0, kMax, "fail above this mean squared error");
+    addNumberOption(command, "--max-mae", arguments.maxMae, 0, kMax, "fail above this mean absolute error");
+    addNumberOption(command, "--max-error", arguments.maxError, 0, kMax, "fail above this largest absolute error");
+    addNumberOption(command, "--max-relmse", arguments.maxRelativeMse, 0, kMax,
+                    "fail above this mean of (A - B)^2 / (B^2 + epsilon)");
+    addNumberOption(command, "--max-mean-difference", arguments.maxMeanDifference, 0, kMax,
+                    "fail when a channel's mean(A) / mean(B) is further than this from 1");
+    addNumberOption(command, "--mean-within", arguments.meanWithin, 0, kMax,
+                    "fail unless the 95 % interval of every channel's mean(A) / mean(B) lies this close to 1");
+    command.add_flag("--noise-alone", arguments.requireNoiseAlone,
+                     "fail when the mean squared error is above what the variance channels add up to; less passes, as "
+                     "of renders with the same random numbers");
+    command.add_flag("--independent-noise", arguments.requireIndependentNoise,
+                     "fail when it is above or below: independent renders with unbiased variances");
+    command.add_flag("--agree", arguments.requireAgreement,
+                     "fail unless the images agree within their noise (their variance channels), or are equal");
+}
+
+}  // namespace
+
 CLI::App* addCompareCommand(CLI::App& program, CompareArguments& arguments) {
-    constexpr double kMax = 1e300;
     CLI::App* command = program.add_subcommand("compare", "Measure how image A differs from image B");
     command->add_option("A", arguments.imageA, "image (.exr)")->required()->type_name("");
     command->add_option("B", arguments.imageB, "image to measure against (.exr)")->required()->type_name("");
@@ -19,26 +43,21 @@ CLI::App* addCompareCommand(CLI::App& program, CompareArguments& arguments) {
         ->type_name("PREFIX");
     addNumberOption(*command, "--error-range", arguments.errorRange, 1e-30, kMax,
                     "error of full colour in PREFIX_error.png");
-    addNumberOption(*command, "--max-mse", arguments.maxMse, 0, kMax, "fail above this mean squared error");
-    addNumberOption(*command, "--max-mae", arguments.maxMae, 0, kMax, "fail above this mean absolute error");
-    addNumberOption(*command, "--max-error", arguments.maxError, 0, kMax, "fail above this largest absolute error");
-    addNumberOption(*command, "--max-relmse", arguments.maxRelativeMse, 0, kMax,
-                    "fail above this mean of (A - B)^2 / (B^2 + epsilon)");
-    addNumberOption(*command, "--max-mean-difference", arguments.maxMeanDifference, 0, kMax,
-                    "fail when a channel's mean(A) / mean(B) is further than this from 1");
-    addNumberOption(*command, "--mean-within", arguments.meanWithin, 0, kMax,
-                    "fail unless the 95 % interval of every channel's mean(A) / mean(B) lies this close to 1");
-    command->add_flag("--noise-alone", arguments.requireNoiseAlone,
-                      "fail unless the mean squared error is what the variance channels add up to");
-    command->add_flag("--agree", arguments.requireAgreement,
-                      "fail unless the images agree within their noise (their variance channels), or are equal");
+    addLimits(*command, arguments);
     command->add_flag("--json", arguments.json, "print as JSON");
     command->footer(
         "Examples:\n"
         "  parhelion compare cloud.exr oracle.exr\n"
         "  parhelion compare cloud.exr oracle.exr --agree --error difference.exr\n"
         "  parhelion compare cloud.exr oracle.exr --max-relmse 0.01 --max-mean-difference 0.002\n\n"
-        "Exit codes: 0 within every limit given, 1 beyond one, 2 bad input.");
+        "The first line is the verdict: identical; agree; less noise than independent renders would have; MORE THAN "
+        "NOISE;\n"
+        "DIFFERENT; different, noise unknown; or NOT FINITE. Limits alone decide the exit code. Identical images pass "
+        "all\n"
+        "of them but --independent-noise; with a value that is not finite none is passed.\n"
+        "Exit codes: 0 within every limit given, or none given; 1 beyond one; 2 bad input: a file that is no image, "
+        "another\n"
+        "size, a missing channel, a negative variance; 3 memory; 130 interrupted.");
     return command;
 }
 

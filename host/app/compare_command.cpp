@@ -25,10 +25,11 @@ using Json = nlohmann::ordered_json;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// One requirement and how it went.
-struct Verdict {
-    std::string what;
+struct Requirement {
+    std::string id;    ///< for scripts: the option in camel case
+    std::string text;  ///< for readers
     double value, limit;
-    bool passed() const { return value <= limit; }
+    bool passed;
 };
 
 /// The largest |meanA / meanB - 1|; infinite where only meanB is 0.
@@ -41,8 +42,10 @@ double meanDifference(const ImageComparison& comparison) {
     return largest;
 }
 
-/// How far from 1 mean(A) / mean(B) may be, by the intervals of its channels.
+/// How far from 1 mean(A) / mean(B) may be, by the intervals of its channels; those take noise to be independent, which
+/// identical images refute.
 double meanReach(const ImageComparison& comparison) {
+    if (comparison.verdict() == ComparisonVerdict::identical) return 0;
     double largest = 0;
     for (const ChannelMeans& means : comparison.channels) {
         const auto [lower, upper] = means.ratioConfidence.value_or(std::array{1.0, 1.0});
@@ -51,26 +54,38 @@ double meanReach(const ImageComparison& comparison) {
     return std::max(largest, meanDifference(comparison));
 }
 
-std::vector<Verdict> judge(const CompareArguments& arguments, const ImageComparison& comparison) {
-    std::vector<Verdict> verdicts;
-    const auto require = [&](const char* what, double value, const std::optional<double>& limit) {
-        if (limit) verdicts.push_back({what, value, *limit});
+/// What the squared error has to be against the noise. Without a noise to divide by, its deviate is 0 or infinite.
+Requirement noiseRequirement(const char* id, const char* text, const ImageComparison& comparison, bool twoSided,
+                             bool passed) {
+    const std::optional<NoiseBudget>& budget = comparison.budget;
+    if (!budget) return {id, text, passed ? 0.0 : kNever, twoSidedThreshold(ComparisonOptions{}.significance), passed};
+    return {id, text, twoSided ? std::abs(budget->z) : budget->z, budget->threshold, passed};
+}
+
+std::vector<Requirement> judge(const CompareArguments& arguments, const ImageComparison& comparison) {
+    std::vector<Requirement> requirements;
+    const auto require = [&](const char* id, const char* text, double value, const std::optional<double>& limit) {
+        if (limit) requirements.push_back({id, text, value, *limit, value <= *limit});
     };
-    require("mse", comparison.meanSquaredError, arguments.maxMse);
-    require("mae", comparison.meanAbsoluteError, arguments.maxMae);
-    require("largest error", comparison.maxAbsoluteError, arguments.maxError);
-    require("relmse", comparison.relativeMse, arguments.maxRelativeMse);
-    require("mean difference", meanDifference(comparison), arguments.maxMeanDifference);
-    require("interval of the mean", meanReach(comparison), arguments.meanWithin);
-    if (arguments.requireNoiseAlone) {
-        const std::optional<NoiseBudget>& budget = comparison.budget;
-        verdicts.push_back({"z of the squared error", budget ? std::abs(budget->z) : kNever,
-                            budget ? budget->threshold : twoSidedThreshold(ComparisonOptions{}.significance)});
-    }
-    if (arguments.requireAgreement) verdicts.push_back({"disagreement", comparison.agree() ? 0.0 : 1.0, 0});
+    require("maxMse", "mean squared error", comparison.meanSquaredError, arguments.maxMse);
+    require("maxMae", "mean absolute error", comparison.meanAbsoluteError, arguments.maxMae);
+    require("maxError", "largest error", comparison.maxAbsoluteError, arguments.maxError);
+    require("maxRelmse", "relative mean squared error", comparison.relativeMse, arguments.maxRelativeMse);
+    require("maxMeanDifference", "mean difference", meanDifference(comparison), arguments.maxMeanDifference);
+    require("meanWithin", "interval of the mean", meanReach(comparison), arguments.meanWithin);
+    if (arguments.requireNoiseAlone)
+        requirements.push_back(noiseRequirement("noiseAlone", "no more than noise: z of the squared error", comparison,
+                                                false, comparison.isNoiseAlone()));
+    if (arguments.requireIndependentNoise)
+        requirements.push_back(noiseRequirement("independentNoise", "independent noise: |z| of the squared error",
+                                                comparison, true, comparison.hasIndependentNoise()));
+    if (arguments.requireAgreement)
+        requirements.push_back({"agree", "disagreement", comparison.agree() ? 0.0 : 1.0, 0, comparison.agree()});
     // Values left out of the figures cannot be within any limit.
-    if (!verdicts.empty()) verdicts.push_back({"non-finite values", static_cast<double>(comparison.nonFinite), 0});
-    return verdicts;
+    if (!requirements.empty())
+        requirements.push_back({"nonFinite", "values not finite", static_cast<double>(comparison.nonFinite), 0,
+                                comparison.nonFinite == 0});
+    return requirements;
 }
 
 template <typename T>
@@ -95,17 +110,24 @@ Json toJson(const std::optional<NoiseBudget>& budget) {
             {"z", budget->z},
             {"threshold", budget->threshold},
             {"largestBias", budget->largestBias},
-            {"passed", budget->passed()}};
+            {"level", budget->isMore() ? "more" : (budget->isLess() ? "less" : "independent")}};
 }
 
-Json toJson(const ImageComparison& comparison, const std::vector<Verdict>& verdicts) {
-    Json json = {{"mse", comparison.meanSquaredError},
+/// What is not finite in it becomes null.
+Json toJson(const ImageComparison& comparison, const std::vector<Requirement>& requirements) {
+    Json json = {{"verdict", identifierOf(comparison.verdict())},
+                 {"values", comparison.values},
+                 {"differing", comparison.differing},
+                 {"mse", comparison.meanSquaredError},
                  {"mae", comparison.meanAbsoluteError},
                  {"max", comparison.maxAbsoluteError},
                  {"relmse", comparison.relativeMse},
                  {"relmseEpsilon", comparison.relativeMseEpsilon},
                  {"nonFinite", comparison.nonFinite},
+                 {"nonFiniteA", comparison.nonFiniteA},
+                 {"nonFiniteB", comparison.nonFiniteB},
                  {"agree", comparison.agree()},
+                 {"noise", identifierOf(comparison.noise)},
                  {"channels", Json::array()},
                  {"budget", toJson(comparison.budget)},
                  {"means", toJson(comparison.means)},
@@ -119,9 +141,11 @@ Json toJson(const ImageComparison& comparison, const std::vector<Verdict>& verdi
                                     {"ratio", orNull(means.ratio)},
                                     {"ratioConfidence", orNull(means.ratioConfidence)},
                                     {"z", orNull(means.z)}});
-    for (const Verdict& verdict : verdicts)
-        json["requirements"].push_back(
-            {{"what", verdict.what}, {"value", verdict.value}, {"limit", verdict.limit}, {"passed", verdict.passed()}});
+    for (const Requirement& requirement : requirements)
+        json["requirements"].push_back({{"id", requirement.id},
+                                        {"value", requirement.value},
+                                        {"limit", requirement.limit},
+                                        {"passed", requirement.passed}});
     return json;
 }
 
@@ -202,7 +226,8 @@ int runCompareCommand(const CompareArguments& arguments) {
     if (!arguments.error.empty()) files = prepareErrorFiles(arguments);
     if (!arguments.pictures.empty()) checkPictures(arguments);
     const Image a = readExr(arguments.imageA), b = readExr(arguments.imageB);
-    const ImageComparison comparison = compareImages(a, b);
+    const ComparisonOptions options{.names = {arguments.imageA, arguments.imageB}};
+    const ImageComparison comparison = compareImages(a, b, options);
     if (files) {
         const Image error = errorImage(a, b);
         const auto lock = interruption.holdOff();
@@ -213,17 +238,16 @@ int runCompareCommand(const CompareArguments& arguments) {
         const auto lock = interruption.holdOff();
         writePictures(arguments, a, b, errorImage(a, b), comparison);
     }
-    const std::vector<Verdict> verdicts = judge(arguments, comparison);
-    bool passed = true;
-    for (const Verdict& verdict : verdicts) passed = passed && verdict.passed();
+    const std::vector<Requirement> requirements = judge(arguments, comparison);
+    const bool passed = std::ranges::all_of(requirements, &Requirement::passed);
     if (arguments.json) {
-        printJson(toJson(comparison, verdicts));
+        printJson(toJson(comparison, requirements));
         return passed ? kExitSuccess : kExitFailed;
     }
     fmt::print("{}", describe(comparison));
-    for (const Verdict& verdict : verdicts)
-        fmt::print("{}  {} {:.6g}, allowed {:.6g}\n", verdict.passed() ? "passed" : "FAILED", verdict.what,
-                   verdict.value, verdict.limit);
+    for (const Requirement& requirement : requirements)
+        fmt::print("{}  {} {:.6g}, allowed {:.6g}\n", requirement.passed ? "passed" : "FAILED", requirement.text,
+                   requirement.value, requirement.limit);
     return passed ? kExitSuccess : kExitFailed;
 }
 

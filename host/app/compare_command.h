@@ -15,6 +15,7 @@ struct CompareArguments {
     std::optional<double> errorRange;  ///< of the picture of the error
     bool requireAgreement = false;
     bool requireNoiseAlone = false;
+    bool requireIndependentNoise = false;
     bool json = false;
 };
 

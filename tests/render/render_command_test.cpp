@@ -160,13 +160,33 @@ TEST_F(RenderCommand, CompareTellsNoiseFromBias) {
     for (const std::string seed : {"1", "2"}) render(seed + ".exr", {"--seed", seed, "--sampler", "independent"});
     const ProgramResult same =
         run({"compare", "1.exr", "2.exr", "--noise-alone", "--mean-within", "0.5", "--error-range", "0.1", "--json"});
-    EXPECT_TRUE(json::parse(same.output)["budget"]["passed"]);
+    EXPECT_EQ(json::parse(same.output)["budget"]["level"], "independent");
     render("black.exr", {"--max-depth", "0"});
     for (const std::vector<std::string>& limit :
          {std::vector<std::string>{"--noise-alone"}, {"--mean-within", "0.5"}}) {
         std::vector<std::string> arguments{"compare", "1.exr", "black.exr"};
         arguments.insert(arguments.end(), limit.begin(), limit.end());
         EXPECT_EQ(runProgram(PARHELION_PROGRAM, arguments, folder_.path()).exitCode, 1) << limit.front();
+    }
+}
+
+/// The back ends draw the same random numbers: their films differ by far less than their noise.
+TEST_F(RenderCommand, CompareKnowsIdenticalAndPairedImages) {
+    render("a.exr", {"--sampler", "independent"});
+    render("twin.exr", {"--sampler", "independent", "--backend", "reference-double"});
+    const auto exitCode = [&](const std::string& other, const std::string& limit) {
+        return runProgram(PARHELION_PROGRAM, {"compare", "a.exr", other, limit}, folder_.path()).exitCode;
+    };
+    EXPECT_EQ(run({"compare", "a.exr", "a.exr"}).output.rfind("identical: ", 0), 0u);
+    EXPECT_EQ(run({"compare", "a.exr", "a.exr"}).output.find("NOISE"), std::string::npos);
+    EXPECT_EQ(json::parse(run({"compare", "a.exr", "a.exr", "--json"}).output)["verdict"], "identical");
+    const json paired = json::parse(run({"compare", "a.exr", "twin.exr", "--json", "--noise-alone"}).output);
+    EXPECT_EQ(paired["verdict"], "lessNoise");
+    EXPECT_EQ(paired["requirements"][0]["id"], "noiseAlone");
+    for (const std::string other : {"a.exr", "twin.exr"}) {
+        EXPECT_EQ(exitCode(other, "--noise-alone"), 0) << other;
+        EXPECT_EQ(exitCode(other, "--agree"), 0) << other;
+        EXPECT_EQ(exitCode(other, "--independent-noise"), 1) << other;
     }
 }
 

@@ -174,6 +174,15 @@ TEST(Agreement, NoiselessImagesMustBeEqualButForRounding) {
     EXPECT_FALSE(testAgreement(a, b).agree());
 }
 
+TEST(Agreement, ImagesOnBothSidesAreNoEvidence) {
+    const std::vector<Image> b = render(3, 1);
+    std::vector<Image> a = render(3, 2);
+    EXPECT_EQ(testAgreement(a, b).shared, 0u);
+    a[1] = b[2];
+    EXPECT_EQ(testAgreement(a, b).shared, 1u);
+    EXPECT_NE(describe(testAgreement(b, b)).find("identical on both sides: 3 images"), std::string::npos);
+}
+
 TEST(Agreement, NonFiniteValuesFail) {
     std::vector<Image> a = render(2, 1);
     a[1].channels["G"][7] = std::numeric_limits<float>::quiet_NaN();

@@ -3,38 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <random>
+
+#include "support/noisy_image.h"
 
 namespace parhelion {
 namespace {
 
-constexpr const char* kChannels[] = {"R", "G", "B"};
-
-Image constantImage(glm::uvec2 size, float value) {
-    Image image{.size = size, .channels = {}, .attributes = {}};
-    for (const char* channel : kChannels) image.channels[channel].assign(std::size_t{size.x} * size.y, value);
-    return image;
-}
-
-/// Pixels of mean (0.5, 1, 2), each with a normal error of the standard deviation that its variance layer states.
-Image noisyImage(glm::uvec2 size, double relativeDeviation, unsigned seed) {
-    Image image{.size = size, .channels = {}, .attributes = {}};
-    std::mt19937 random(seed);
-    for (int c = 0; c < 3; ++c) {
-        const double mean = 0.5 * (1 << c), deviation = relativeDeviation * mean;
-        std::normal_distribution<double> value(mean, deviation);
-        for (unsigned i = 0; i < size.x * size.y; ++i) {
-            image.channels[kChannels[c]].push_back(static_cast<float>(value(random)));
-            image.channels[std::string("variance.") + kChannels[c]].push_back(float(deviation * deviation));
-        }
-    }
-    return image;
-}
-
-void scale(Image& image, double factor) {
-    for (const char* channel : kChannels)
-        for (float& value : image.channels[channel]) value = static_cast<float>(value * factor);
-}
+using test::constantImage;
+using test::kChannels;
+using test::noisyImage;
+using test::removeVariances;
+using test::scale;
 
 std::string comparisonError(const Image& a, const Image& b) {
     try {
@@ -48,6 +27,8 @@ std::string comparisonError(const Image& a, const Image& b) {
 TEST(CompareImages, EqualImagesDifferInNothing) {
     const Image image = noisyImage({19, 11}, 0.1, 1);
     const ImageComparison comparison = compareImages(image, image);
+    EXPECT_EQ(comparison.differing, 0u);
+    EXPECT_EQ(comparison.values, 3u * 19 * 11);
     EXPECT_EQ(comparison.meanSquaredError, 0.0);
     EXPECT_EQ(comparison.relativeMse, 0.0);
     EXPECT_EQ(comparison.pixels->z, 0.0);
@@ -119,7 +100,7 @@ TEST(CompareImages, IndependentNoiseAgrees) {
 
 TEST(CompareImages, OneSidedNoiseAgreesWithTheTruth) {
     Image truth = noisyImage({64, 48}, 0.0, 1);
-    for (const char* channel : kChannels) truth.channels.erase(std::string("variance.") + channel);
+    removeVariances(truth);
     const Image noisy = noisyImage({64, 48}, 0.2, 5);
     const ImageComparison comparison = compareImages(noisy, truth);
     EXPECT_EQ(comparison.noise, NoiseSource::imageA);
@@ -160,7 +141,8 @@ TEST(CompareImages, SquaredErrorIsTheSumOfBothVariances) {
         // Means of squares 0.25, 1 and 4.
         EXPECT_NEAR(comparison.budget->expected, 0.05 * 1.75, 1e-6);
         EXPECT_NEAR(comparison.budget->ratio, comparison.meanSquaredError / comparison.budget->expected, 1e-6);
-        EXPECT_TRUE(comparison.budget->passed()) << describe(*comparison.budget);
+        EXPECT_TRUE(comparison.hasIndependentNoise()) << describe(*comparison.budget);
+        EXPECT_EQ(identifierOf(comparison.verdict()), "agree");
         EXPECT_LT(comparison.budget->largestBias, 0.4 * std::sqrt(comparison.budget->expected));
     }
 }
@@ -173,15 +155,53 @@ TEST(CompareImages, ErrorThatNoRegionShowsAddsToTheNoise) {
     const Image truth = noisyImage({64, 48}, 1e-9, 3);
     const ImageComparison comparison = compareImages(a, truth);
     EXPECT_TRUE(comparison.agree());
-    EXPECT_FALSE(comparison.budget->passed()) << describe(*comparison.budget);
+    EXPECT_TRUE(comparison.budget->isMore()) << describe(*comparison.budget);
+    EXPECT_EQ(identifierOf(comparison.verdict()), "moreNoise");
+    EXPECT_FALSE(comparison.isNoiseAlone());
     EXPECT_GT(comparison.budget->largestBias, 0.1 * std::sqrt(1.75));
 }
 
-TEST(CompareImages, OverstatedVariancesAreNotNoiseEither) {
+TEST(CompareImages, OverstatedVariancesAreNotIndependentNoise) {
     Image a = noisyImage({64, 48}, 0.2, 1);
     for (const char* channel : kChannels)
         for (float& variance : a.channels[std::string("variance.") + channel]) variance *= 1.2f;
-    EXPECT_FALSE(compareImages(a, noisyImage({64, 48}, 1e-9, 2)).budget->passed());
+    const ImageComparison comparison = compareImages(a, noisyImage({64, 48}, 1e-9, 2));
+    EXPECT_TRUE(comparison.budget->isLess());
+    EXPECT_TRUE(comparison.isNoiseAlone());
+    EXPECT_FALSE(comparison.hasIndependentNoise());
+}
+
+TEST(CompareImages, CountsTheValuesThatDiffer) {
+    const Image b = noisyImage({16, 8}, 0.2, 1);
+    Image a = b;
+    a.channels["R"][3] *= 1.5f;
+    a.channels["B"][9] = std::nextafter(a.channels["B"][9], 0.0f);
+    const ImageComparison comparison = compareImages(a, b);
+    EXPECT_EQ(comparison.differing, 2u);
+    EXPECT_NE(describe(comparison).find("values with different bits: 2 of 384"), std::string::npos);
+}
+
+// Shared noise must not be taken off a squared error that it is no part of: the difference is (1e-3 of the values), and
+// the bound is that and 1.6 standard errors of its mean square over 3072 pixels, each some 60 % of it: 1 %.
+TEST(CompareImages, SystematicDifferenceOfPairedImagesIsBounded) {
+    Image a = noisyImage({64, 48}, 0.2, 1);
+    const Image b = a;
+    scale(a, 1.001);
+    const ImageComparison comparison = compareImages(a, b);
+    const double difference = std::sqrt(comparison.meanSquaredError);
+    EXPECT_GE(comparison.budget->largestBias, difference);
+    EXPECT_LE(comparison.budget->largestBias, 1.02 * difference);
+}
+
+TEST(CompareImages, RefusesVariancesThatSayNothing) {
+    Image a = noisyImage({4, 2}, 0.2, 1);
+    const Image b = a;
+    a.channels["variance.G"][6] = -0.25f;
+    EXPECT_EQ(comparisonError(a, b), "the first image: 'variance.G' must be >= 0; got -0.25 at pixel (2, 1)");
+    a.channels.erase("variance.G");
+    EXPECT_EQ(
+        comparisonError(b, a),
+        "the second image has a channel 'variance.R' and no 'variance.G': the variances of R, G and B go together");
 }
 
 // Four seeds leave three degrees of freedom: deviations that normal noise would never have are common.

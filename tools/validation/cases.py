@@ -44,7 +44,7 @@ def mean_within(share):
     return (Criterion(f"image mean: 95 % interval within ±{100 * share:g} %", ("--mean-within", f"{share:g}")),)
 
 
-NOISE_ALONE = (Criterion("MSE = sum of both variances", ("--noise-alone",), False),)
+NOISE_ALONE = (Criterion("MSE = sum of both variances", ("--independent-noise",), False),)
 AGREE = (Criterion("image means, 8 × 8 tiles and pixels agree by z", ("--agree",), False),)
 
 

@@ -5,6 +5,7 @@ import math
 import os
 import pathlib
 import time
+import xml.etree.ElementTree
 from typing import Optional
 
 from cases import ROOT, ImageCase, SweepCase, TestCase
@@ -53,9 +54,14 @@ def one_digit(value):
     return next(step * unit for step in (1, 2, 5, 10) if value <= step * unit * (1 + 1e-9))
 
 
+def number_text(value, form):
+    """A figure of `parhelion compare --json`, where null stands for what is not finite."""
+    return "not finite" if value is None else form.format(value).replace("-", "−")
+
+
 def family_text(family):
     place = f" in {family['channel']} at ({family['pixel'][0]}, {family['pixel'][1]})" if family["channel"] else ""
-    return f"|z| {abs(family['z']):.2f}{place}, limit {family['threshold']:.2f}"
+    return f"z {number_text(family['z'], '{:.2f}')}{place}, limit {family['threshold']:.2f}"
 
 
 def agreement_checks(figures):
@@ -82,16 +88,16 @@ def noise_text(figures):
     if not budget:
         return "no noise"
     low, high = budget["ratioConfidence"]
-    test = f"|z| {abs(budget['z']):.2f}, limit {budget['threshold']:.2f}"
+    test = f"z {number_text(budget['z'], '{:.2f}')}, limit {budget['threshold']:.2f}"
     return f"ratio {budget['ratio']:.3f} [{low:.3f}, {high:.3f}], {test}"
 
 
 def checks_of(criteria, figures):
     """One check a criterion, with what the comparison measured for it."""
-    key = {"--max-mse": "mse", "--max-mae": "mae", "--max-error": "largest error",
-           "--mean-within": "interval of the mean", "--noise-alone": "z of the squared error"}
-    described = {"--mean-within": mean_text, "--noise-alone": noise_text}
-    measured = {r["what"]: r for r in figures["requirements"]}
+    key = {"--max-mse": "maxMse", "--max-mae": "maxMae", "--max-error": "maxError",
+           "--mean-within": "meanWithin", "--independent-noise": "independentNoise"}
+    described = {"--mean-within": mean_text, "--independent-noise": noise_text}
+    measured = {r["id"]: r for r in figures["requirements"]}
     checks = []
     for criterion in criteria:
         option = criterion.option[0]
@@ -99,7 +105,7 @@ def checks_of(criteria, figures):
             checks += agreement_checks(figures)
             continue
         verdict = measured[key[option]]
-        value = described[option](figures) if option in described else f"{verdict['value']:.3g}"
+        value = described[option](figures) if option in described else number_text(verdict["value"], "{:.3g}")
         checks.append(Check(criterion.text, value, verdict["passed"]))
     if figures["nonFinite"]:
         checks.append(Check("every value finite", f"{figures['nonFinite']} are not", False))
@@ -124,7 +130,10 @@ def prepare_reference(case, settings):
     if isinstance(case.reference, pathlib.Path):
         return case.reference
     file = settings.out / f"{case.name}_exact.exr"
-    case.reference(file, case.size, case.scene, dict(case.defines))
+    try:
+        case.reference(file, case.size, case.scene, dict(case.defines))
+    except xml.etree.ElementTree.ParseError as error:
+        raise Failure(f"{case.scene}: {error}") from error
     return file
 
 
@@ -210,5 +219,7 @@ def run_case(case, settings):
         result = runner(case, settings)
     except Failure as failure:
         result = Result(case, status="error", reason=str(failure))
+    except OSError as error:
+        result = Result(case, status="error", reason=f"{error.filename}: {error.strerror}")
     result.seconds = time.monotonic() - start
     return result
