@@ -37,10 +37,10 @@ void addImageOptions(CLI::App& command, RenderArguments& arguments) {
 }
 
 void addDeviceOptions(CLI::App& command, RenderArguments& arguments) {
-    addChoiceOption<Backend, Backend>(command, "--backend", arguments.backend,
-                                      {{"vulkan", Backend::Vulkan},
-                                       {"reference", Backend::Reference},
-                                       {"reference-double", Backend::ReferenceDouble}},
+    std::map<std::string, Backend> backends;
+    for (const Backend backend : {Backend::Vulkan, Backend::Reference, Backend::ReferenceDouble})
+        backends.emplace(nameOf(backend), backend);
+    addChoiceOption<Backend, Backend>(command, "--backend", arguments.backend, backends,
                                       "what renders (default vulkan); the reference is plain C++ on the CPU");
     command.add_option("--device", arguments.device, "part of a device's name, or its number: see parhelion devices")
         ->type_name("NAME");
@@ -71,6 +71,18 @@ void addQualityOptions(CLI::App& command, RenderArguments& arguments) {
 }
 
 }  // namespace
+
+const char* nameOf(Backend backend) {
+    switch (backend) {
+        case Backend::Vulkan:
+            return "vulkan";
+        case Backend::Reference:
+            return "reference";
+        case Backend::ReferenceDouble:
+            return "reference-double";
+    }
+    return "";
+}
 
 CLI::App* addRenderCommand(CLI::App& program, RenderArguments& arguments) {
     CLI::App* command = program.add_subcommand("render", "Render a scene to an EXR and a PNG");

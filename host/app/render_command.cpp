@@ -50,8 +50,10 @@ SceneDescription readSceneBeside(const OutputFiles& files, const RenderArguments
 }
 
 void refuseVulkanOptions(const RenderArguments& arguments) {
-    const auto refuse = [](const char* option, bool given) {
-        if (given) throw InputError(fmt::format("{}: only --backend vulkan has it; got --backend reference", option));
+    const auto refuse = [&arguments](const char* option, bool given) {
+        if (given)
+            throw InputError(fmt::format("{}: only --backend {} has it; got --backend {}", option,
+                                         nameOf(Backend::Vulkan), nameOf(arguments.backend)));
     };
     refuse("--device", !arguments.device.empty());
     refuse("--vector-bits", arguments.vectorBits.has_value());
@@ -145,11 +147,10 @@ RenderOutcome runBackend(const RenderArguments& arguments, gpu::Device* device, 
 RenderReport makeReport(const RenderArguments& arguments, const OutputFiles& files, const CompiledScene& scene,
                         const RenderSettings& settings, const RenderOutcome& outcome,
                         std::vector<CloudBakeReport> clouds) {
-    static constexpr const char* kBackendNames[] = {"vulkan", "reference", "reference-double"};
     return {.scene = arguments.scene.file,
             .exr = files.exr.string(),
             .png = files.png.string(),
-            .backend = kBackendNames[static_cast<int>(arguments.backend)],
+            .backend = nameOf(arguments.backend),
             .device = outcome.device,
             .driver = outcome.driver,
             .filmSize = scene.filmSize,

@@ -11,6 +11,9 @@ namespace parhelion::app {
 
 enum class Backend { Vulkan, Reference, ReferenceDouble };
 
+/// The word that chooses a back end.
+const char* nameOf(Backend backend);
+
 /// parhelion render: what the user asked for. Options left out are empty.
 struct RenderArguments {
     SceneArguments scene;
@@ -22,12 +25,12 @@ struct RenderArguments {
     Backend backend = Backend::Vulkan;
     bool sampleEveryLight = false;
     Quality quality;
+    std::optional<bool> sobol;
     // Those that only the Vulkan back end has.
     std::string device;
     std::optional<unsigned> vectorBits;
     std::optional<bool> allEffects;
     std::optional<std::uint32_t> stepsPerEvent;
-    std::optional<bool> sobol;
 
     double exposure = 0;
     bool allowAnomalies = false, bakeError = false, json = false, quiet = false;

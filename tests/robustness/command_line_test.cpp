@@ -52,7 +52,12 @@ std::vector<BadUsage> badValues() {
         badRender("CropWithoutSize", {"--crop", "1,2"}, "--crop: expected X,Y,WIDTHxHEIGHT"),
         badRender("EmptyCrop", {"--crop", "1,2,0x4"}, "--crop: expected X,Y,WIDTHxHEIGHT"),
         badRender("CropOutside", {"--crop", "10,0,8x8"}, "--crop: must lie inside the film of 16x12; got 10,0,8x8"),
-        badRender("DeviceForReference", {"--backend", "reference", "--device", "0"}, "--device: only --backend vulkan"),
+        badRender("DeviceForReference", {"--backend", "reference", "--device", "0"},
+                  "--device: only --backend vulkan has it; got --backend reference\n"),
+        badRender("DeviceForDoubleReference", {"--backend", "reference-double", "--device", "0"},
+                  "--device: only --backend vulkan has it; got --backend reference-double\n"),
+        badRender("LanesForDoubleReference", {"--vector-bits", "256", "--backend", "reference-double"},
+                  "--vector-bits: only --backend vulkan has it; got --backend reference-double\n"),
     };
 }
 
