@@ -102,7 +102,7 @@ bool isUniform(const SkyDescription& sky) {
 
 glm::dvec3 compileSky(const SkyDescription& sky, const SourceLocation& where, CompiledScene& scene) {
     std::vector<Star> stars;
-    if (sky.starRadiance != glm::dvec3(0.0)) stars = scatterStars(sky);
+    if (sky.starRadiance != glm::dvec3(0.0)) stars = scatterStars(sky, where);
     const double oneMinusCos = starOneMinusCos(sky);
     std::vector<double> brightness;
     for (const Star& star : stars) brightness.push_back(star.brightness);

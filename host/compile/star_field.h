@@ -18,11 +18,14 @@ struct Star {
 inline constexpr double kFaintestStar = 0.02;
 
 /// The stars of a sky, the same for the same density, size and seed: as many as a Poisson process of that density has,
-/// uniform over the sphere, those that would touch an earlier one placed anew. Brightness b follows
-/// N(> b) ~ b^-3/2, what a uniform space of equal suns shows, from kFaintestStar to 1.
+/// uniform over the sphere, those that would touch an earlier one placed anew. A disc of radius r keeps others' centers
+/// from 4 sin^2(r/2) of the sphere at most, four times what it covers: where all together cover a tenth of it, as
+/// scenes may at most, a place is free with probability 0.6 or more. Brightness b follows N(> b) ~ b^-3/2, what a
+/// uniform space of equal suns shows, from kFaintestStar to 1.
 ///
 /// @return at most kMaxStars.
-std::vector<Star> scatterStars(const SkyDescription& sky);
+/// @throws InputError at `where` when 4 attempts a star and 1000 more have not found room: they would cover too much.
+std::vector<Star> scatterStars(const SkyDescription& sky, const SourceLocation& where = {});
 
 /// 1 - cos of the stars' angular radius.
 double starOneMinusCos(const SkyDescription& sky);

@@ -4,56 +4,28 @@
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/read_cloud.h"
 #include "volume/volume_file.h"
 
 namespace parhelion {
 namespace {
 
-constexpr std::array kCloudProperties{"detailAmount", "noiseScale", "warpAmount",       "erosionAmount",
-                                      "surfaceWidth", "noiseSeed",  "densityThreshold", "bakeResolution"};
+constexpr CloudNames kNames{.detailAmount = "detailAmount",
+                            .noiseScale = "noiseScale",
+                            .warpAmount = "warpAmount",
+                            .erosionAmount = "erosionAmount",
+                            .surfaceWidth = "surfaceWidth",
+                            .noiseSeed = "noiseSeed",
+                            .densityScale = "densityScale",
+                            .densityThreshold = "densityThreshold",
+                            .bakeResolution = "bakeResolution"};
 
+/// Whether a property was given that only a cloud has; a density from a file has a scale, too.
 bool isCloud(PropertyReader& reader) {
-    return std::ranges::any_of(kCloudProperties, [&reader](const char* name) { return reader.has(name); });
-}
-
-constexpr std::int64_t kMaxBakeResolution = 1024;
-constexpr NumberRange kUpToFour{0.0, 4.0, false, false, "be in [0, 4]"};
-
-/// The noise's parameters; values not given are those of the baseline's sweep.
-shared::CloudField readNoise(PropertyReader& reader) {
-    constexpr NumberRange kScale{0.0, 256.0, true, false, "be in (0, 256]"};
-    constexpr NumberRange kWidth{1e-3, 4.0, false, false, "be in [0.001, 4]"};
-    shared::CloudField cloud{};
-    cloud.detailAmount = float(reader.number("detailAmount", 0.62, kUpToFour));
-    cloud.noiseScale = float(reader.number("noiseScale", 2.6, kScale));
-    cloud.warpAmount = float(reader.number("warpAmount", 0.28, kUpToFour));
-    cloud.erosionAmount = float(reader.number("erosionAmount", 0.3, kUpToFour));
-    cloud.surfaceWidth = float(reader.number("surfaceWidth", 0.14, kWidth));
-    cloud.noiseSeed = std::uint32_t(reader.integer("noiseSeed", 4, 0, 0xffffffffLL));
-    return cloud;
-}
-
-shared::CloudField readCloud(PropertyReader& reader) {
-    constexpr NumberRange kDensityScale{0.0, 1000.0, false, false, "be in [0, 1000]"};
-    shared::CloudField cloud = readNoise(reader);
-    cloud.densityScale = float(reader.number("densityScale", 0.85, kDensityScale));
-    cloud.densityThreshold = float(reader.number("densityThreshold", 0.02, kUnitInterval));
-    cloud.resolution = glm::uvec3(unsigned(reader.integer("bakeResolution", 128, 1, kMaxBakeResolution)));
-    return cloud;
-}
-
-/// The detail that erodes a file's density, at its resolution unless told how many voxels its longest axis has.
-shared::CloudField readModulation(PropertyReader& reader, const glm::uvec3& resolution) {
-    shared::CloudField cloud = readNoise(reader);
-    cloud.modulates = 1;
-    cloud.densityScale = 1.0f;
-    cloud.densityThreshold = float(reader.number("densityThreshold", 0.0, kNonNegative));
-    cloud.resolution = resolution;
-    if (!reader.has("bakeResolution")) return cloud;
-    const double longest = double(reader.integer("bakeResolution", 128, 1, kMaxBakeResolution));
-    const glm::dvec3 shape(resolution);
-    cloud.resolution = glm::max(glm::round(shape * (longest / std::max({shape.x, shape.y, shape.z}))), glm::dvec3(1.0));
-    return cloud;
+    constexpr std::array kOfCloudsAlone{kNames.detailAmount,     kNames.noiseScale,    kNames.warpAmount,
+                                        kNames.erosionAmount,    kNames.surfaceWidth,  kNames.noiseSeed,
+                                        kNames.densityThreshold, kNames.bakeResolution};
+    return std::ranges::any_of(kOfCloudsAlone, [&reader](const char* name) { return reader.has(name); });
 }
 
 Volume readFile(ReadContext& context, PropertyReader& reader, const char* name) {
@@ -95,9 +67,10 @@ GridPlacement readNoriDensity(ReadContext& context, PropertyReader& reader, glm:
         placement.volume = readFile(context, reader, file);
         bounds = {placement.volume.boundsMin, placement.volume.boundsMax};
         sigmaT *= reader.number("densityScale", 1.0, kNonNegative);
-        if (isCloud(reader)) placement.cloud = readModulation(reader, placement.volume.density.resolution());
+        if (isCloud(reader))
+            placement.cloud = readCloudModulation(reader, kNames, placement.volume.density.resolution());
     } else if (isCloud(reader)) {
-        placement.cloud = readCloud(reader);
+        placement.cloud = readCloud(reader, kNames);
         placement.volume.source = "procedural cloud";
     } else {
         reader.fail(reader.where(),

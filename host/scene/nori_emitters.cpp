@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "scene/read_sky.h"
 #include "scene/transforms.h"
 
 namespace parhelion {
@@ -12,14 +13,6 @@ using Type = EmitterDescription::Type;
 
 bool surrounds(const EmitterDescription& emitter) {
     return emitter.type != Type::Directional && emitter.type != Type::Point;
-}
-
-glm::dvec3 readDirection(PropertyReader& reader, const char* name, glm::dvec3 fallback) {
-    const glm::dvec3 direction = reader.triple(name, fallback);
-    const double length = glm::length(direction);
-    if (!(length > 0.0 && length < 1e150))
-        reader.fail(reader.whereOf(name), fmt::format("\"{}\" must not be zero or longer than 1e150", name));
-    return direction / length;
 }
 
 /// The one of two names that was given; the first when neither was.
@@ -33,7 +26,11 @@ const char* givenName(PropertyReader& reader, const char* name, const char* alia
 void readDirectional(PropertyReader& reader, EmitterDescription& emitter) {
     emitter.type = Type::Directional;
     emitter.value = reader.color(givenName(reader, "radiance", "irradiance"), 1.0, kNonNegative);
-    emitter.vector = readDirection(reader, "direction", {0.0, 0.0, 1.0});
+    const glm::dvec3 direction = reader.triple("direction", {0.0, 0.0, 1.0});
+    const double length = glm::length(direction);
+    if (!(length > 1e-150 && length < 1e150))
+        reader.fail(reader.whereOf("direction"), "\"direction\" must not be zero or longer than 1e150");
+    emitter.vector = direction / length;
 }
 
 /// `power` is the light's flux, as in Nori's exercises.
@@ -61,21 +58,19 @@ void readMap(ReadContext& context, PropertyReader& reader, EmitterDescription& e
     emitter.map = readBitmap(file, reader.whereOf("filename"));
 }
 
-void readSky(PropertyReader& reader, EmitterDescription& emitter) {
+void readInfinite(PropertyReader& reader, EmitterDescription& emitter) {
     emitter.type = Type::Sky;
-    SkyDescription& sky = emitter.sky;
-    sky.axis = readDirection(reader, "axis", sky.axis);
-    constexpr NumberRange kOffset{-1e30, 1e30, false, false, "be in [-1e30, 1e30]"};
-    sky.offset = reader.number("offset", sky.offset, kOffset);
-    sky.width = reader.number("width", sky.width, kNonNegative);
-    sky.power = reader.number("power", sky.power, kNonNegative);
-    sky.top = reader.color(givenName(reader, "top", "topColor"), 1.0, kNonNegative);
-    sky.bottom = reader.color(givenName(reader, "bottom", "bottomColor"), 0.0, kNonNegative);
-    constexpr NumberRange kStarSize{1e-3, 10.0, false, false, "be in [0.001, 10] degrees"};
-    sky.starDensity = reader.number("starDensity", sky.starDensity, kNonNegative);
-    sky.starSizeDegrees = reader.number("starSize", sky.starSizeDegrees, kStarSize);
-    sky.starRadiance = reader.color("starBrightness", 1.0, kNonNegative);
-    sky.starSeed = static_cast<std::uint32_t>(reader.integer("starSeed", 0, 0, 0xffffffffLL));
+    const SkyNames names{.axis = "axis",
+                         .offset = "offset",
+                         .width = "width",
+                         .power = "power",
+                         .bottom = givenName(reader, "bottom", "bottomColor"),
+                         .top = givenName(reader, "top", "topColor"),
+                         .starDensity = "starDensity",
+                         .starSize = "starSize",
+                         .starRadiance = "starBrightness",
+                         .starSeed = "starSeed"};
+    emitter.sky = readSky(reader, names, ColorRole::Value);
 }
 
 }  // namespace
@@ -87,7 +82,7 @@ void readNoriEmitter(ReadContext& context, const XmlElement& element) {
     if (reader.type() == "envmap") {
         readMap(context, reader, emitter);
     } else if (reader.type() == "infinite") {
-        readSky(reader, emitter);
+        readInfinite(reader, emitter);
     } else if (reader.type() == "constant") {
         emitter.value = reader.color("radiance", 1.0, kNonNegative);
     } else if (reader.type() == "directional") {

@@ -11,17 +11,27 @@ namespace {
 constexpr std::int64_t kMaxBakeResolution = 1024;
 constexpr NumberRange kUpToFour{0.0, 4.0, false, false, "be in [0, 4]"};
 
+constexpr CloudNames kNames{.detailAmount = "detail_amount",
+                            .noiseScale = "noise_scale",
+                            .warpAmount = "warp_amount",
+                            .erosionAmount = "erosion_amount",
+                            .surfaceWidth = "surface_width",
+                            .noiseSeed = "noise_seed",
+                            .densityScale = "density_scale",
+                            .densityThreshold = "density_threshold",
+                            .bakeResolution = "bake_resolution"};
+
 /// The noise's parameters; defaults are those of the sweep of clouds that the formula comes from.
-shared::CloudField readNoise(PropertyReader& reader) {
+shared::CloudField readNoise(PropertyReader& reader, const CloudNames& names) {
     constexpr NumberRange kScale{0.0, 256.0, true, false, "be in (0, 256]"};
     constexpr NumberRange kWidth{1e-3, 4.0, false, false, "be in [0.001, 4]"};
     shared::CloudField field{};
-    field.detailAmount = float(reader.number("detail_amount", 0.62, kUpToFour));
-    field.noiseScale = float(reader.number("noise_scale", 2.6, kScale));
-    field.warpAmount = float(reader.number("warp_amount", 0.28, kUpToFour));
-    field.erosionAmount = float(reader.number("erosion_amount", 0.30, kUpToFour));
-    field.surfaceWidth = float(reader.number("surface_width", 0.14, kWidth));
-    field.noiseSeed = std::uint32_t(reader.integer("noise_seed", 4, 0, 0xffffffff));
+    field.detailAmount = float(reader.number(names.detailAmount, 0.62, kUpToFour));
+    field.noiseScale = float(reader.number(names.noiseScale, 2.6, kScale));
+    field.warpAmount = float(reader.number(names.warpAmount, 0.28, kUpToFour));
+    field.erosionAmount = float(reader.number(names.erosionAmount, 0.30, kUpToFour));
+    field.surfaceWidth = float(reader.number(names.surfaceWidth, 0.14, kWidth));
+    field.noiseSeed = std::uint32_t(reader.integer(names.noiseSeed, 4, 0, 0xffffffff));
     return field;
 }
 
@@ -45,33 +55,40 @@ void readModulation(ReadContext& context, PropertyReader& reader, const Property
     if (base.grid->volume.channels != 1)
         reader.fail(nested.where, fmt::format("the density to modulate must be a grid of one channel; {} has {}",
                                               base.grid->volume.source, base.grid->volume.channels));
-    shared::CloudField& field = *placement.cloud;
-    const glm::uvec3 n = base.grid->volume.density.resolution();
-    const std::int64_t longest = std::max({n.x, n.y, n.z});
-    field.modulates = 1;
-    field.densityScale = 1;
-    field.densityThreshold = float(reader.number("density_threshold", 0.0, kNonNegative));
-    field.resolution = n;
-    if (reader.has("bake_resolution"))
-        field.resolution = proportional(n, reader.integer("bake_resolution", longest, 1, kMaxBakeResolution));
+    placement.cloud = readCloudModulation(reader, kNames, base.grid->volume.density.resolution());
     placement.volume = std::move(base.grid->volume);
     placement.toWorld = base.grid->toWorld;
 }
 
 }  // namespace
 
-GridPlacement readProceduralCloud(ReadContext& context, PropertyReader& reader) {
+shared::CloudField readCloud(PropertyReader& reader, const CloudNames& names) {
     constexpr NumberRange kDensityScale{0.0, 1000.0, false, false, "be in [0, 1000]"};
+    shared::CloudField field = readNoise(reader, names);
+    field.densityScale = float(reader.number(names.densityScale, 0.85, kDensityScale));
+    field.densityThreshold = float(reader.number(names.densityThreshold, 0.02, kUnitInterval));
+    field.resolution = glm::uvec3(std::uint32_t(reader.integer(names.bakeResolution, 128, 1, kMaxBakeResolution)));
+    return field;
+}
+
+shared::CloudField readCloudModulation(PropertyReader& reader, const CloudNames& names, glm::uvec3 resolution) {
+    shared::CloudField field = readNoise(reader, names);
+    field.modulates = 1;
+    field.densityScale = 1;
+    field.densityThreshold = float(reader.number(names.densityThreshold, 0.0, kNonNegative));
+    field.resolution = resolution;
+    if (reader.has(names.bakeResolution))
+        field.resolution = proportional(resolution, reader.integer(names.bakeResolution, 128, 1, kMaxBakeResolution));
+    return field;
+}
+
+GridPlacement readProceduralCloud(ReadContext& context, PropertyReader& reader) {
     GridPlacement placement;
     placement.where = reader.where();
-    placement.cloud = readNoise(reader);
     if (const auto nested = reader.onlyNested("volume")) {
         readModulation(context, reader, *nested, placement);
     } else {
-        shared::CloudField& field = *placement.cloud;
-        field.densityScale = float(reader.number("density_scale", 0.85, kDensityScale));
-        field.densityThreshold = float(reader.number("density_threshold", 0.02, kUnitInterval));
-        field.resolution = glm::uvec3(std::uint32_t(reader.integer("bake_resolution", 128, 1, kMaxBakeResolution)));
+        placement.cloud = readCloud(reader, kNames);
         placement.toWorld = reader.transform("to_world").matrix;
     }
     reader.finish();

@@ -1,12 +1,11 @@
 #include "scene/read_emitters.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "scene/read_media.h"
+#include "scene/read_sky.h"
 #include "scene/read_textures.h"
 #include "scene/transforms.h"
-#include "shared/scene_types.h"
 
 namespace parhelion {
 namespace {
@@ -21,8 +20,8 @@ void readSamplingWeight(ReadContext& context, PropertyReader& reader) {
                      "\"sampling_weight\" has no effect on the image; lights are chosen by our own rule");
 }
 
-glm::dvec3 readLight(PropertyReader& reader, const char* name, double fallback = 1.0) {
-    return reader.color(name, fallback, kNonNegative, ColorRole::Emission);
+glm::dvec3 readLight(PropertyReader& reader, const char* name) {
+    return reader.color(name, 1.0, kNonNegative, ColorRole::Emission);
 }
 
 /// Accepts the medium that Mitsuba lets an emitter name, which it makes nothing of.
@@ -45,7 +44,7 @@ void readDirectional(PropertyReader& reader, EmitterDescription& emitter) {
     const glm::dmat4 toWorld = reader.transform("to_world").matrix;
     const glm::dvec3 direction = reader.triple("direction", glm::dvec3(toWorld[2]));
     const double length = glm::length(direction);
-    if (!(length > 0.0 && length < 1e150))
+    if (!(length > 1e-150 && length < 1e150))
         reader.fail(reader.whereOf("direction"), "\"direction\" must not be zero or longer than 1e150");
     emitter.vector = direction / length;
 }
@@ -88,41 +87,21 @@ void readEnvironmentMap(ReadContext& context, PropertyReader& reader, EmitterDes
     emitter.map = readBitmap(file, reader.whereOf("filename"));
 }
 
-void readStars(PropertyReader& reader, SkyDescription& sky) {
-    constexpr double kPi = std::numbers::pi;
-    constexpr NumberRange kSize{1e-3, 10.0, false, false, "be in [0.001, 10] degrees"};
-    sky.starDensity = reader.number("star_density", 0.0, kNonNegative);
-    sky.starSizeDegrees = reader.number("star_size", 0.1, kSize);
-    sky.starRadiance = readLight(reader, "star_radiance");
-    sky.starSeed = std::uint32_t(reader.integer("star_seed", 0, 0, 0xffffffffll));
-    const double stars = 4.0 * kPi * sky.starDensity;
-    if (stars > shared::kMaxStars)
-        reader.fail(reader.whereOf("star_density"),
-                    fmt::format("\"star_density\" must be at most {:.0f} per steradian ({} stars); got {}",
-                                std::floor(shared::kMaxStars / (4.0 * kPi)), shared::kMaxStars, sky.starDensity));
-    const double sine = std::sin(sky.starSizeDegrees * kPi / 720.0);  // of half the radius
-    const double covered = stars * sine * sine;
-    if (covered > 0.1)
-        reader.fail(reader.whereOf("star_density"),
-                    fmt::format("stars must cover at most a tenth of the sky; got {:.3g} of it", covered));
-}
+constexpr SkyNames kSkyNames{.axis = "axis",
+                             .offset = "offset",
+                             .width = "width",
+                             .power = "power",
+                             .bottom = "bottom",
+                             .top = "top",
+                             .starDensity = "star_density",
+                             .starSize = "star_size",
+                             .starRadiance = "star_radiance",
+                             .starSeed = "star_seed"};
 
-void readSky(const ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
+void readSkyEmitter(const ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
     rejectSecondSurrounding(context, reader);
     emitter.type = EmitterDescription::Type::Sky;
-    SkyDescription& sky = emitter.sky;
-    const glm::dvec3 axis = reader.triple("axis", sky.axis);
-    const double length = glm::length(axis);
-    if (!(length > 1e-150 && length < 1e150))
-        reader.fail(reader.whereOf("axis"), "\"axis\" must not be zero or longer than 1e150");
-    sky.axis = axis / length;
-    constexpr NumberRange kOffset{-1e30, 1e30, false, false, "be in [-1e30, 1e30]"};
-    sky.offset = reader.number("offset", sky.offset, kOffset);
-    sky.width = reader.number("width", sky.width, kNonNegative);
-    sky.power = reader.number("power", sky.power, kNonNegative);
-    sky.bottom = readLight(reader, "bottom", 0.0);
-    sky.top = readLight(reader, "top");
-    readStars(reader, sky);
+    emitter.sky = readSky(reader, kSkyNames, ColorRole::Emission);
 }
 
 }  // namespace
@@ -136,7 +115,7 @@ void readEmitter(ReadContext& context, const XmlElement& element) {
     else if (reader.type() == "envmap")
         readEnvironmentMap(context, reader, emitter);
     else if (reader.type() == "sky")
-        readSky(context, reader, emitter);
+        readSkyEmitter(context, reader, emitter);
     else if (reader.type() == "directional")
         readDirectional(reader, emitter);
     else if (reader.type() == "point")

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "compile/compiled_scene.h"
 #include "scene/scene_description.h"
 #include "support/stress.h"
 

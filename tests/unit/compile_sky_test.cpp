@@ -174,67 +174,6 @@ TEST(CompiledSky, BandsAreAtLeastAsLikelyAsTheirBrightestDirection) {
     }
 }
 
-TEST(StarField, IsTheSameForTheSameSeed) {
-    const std::vector<Star> a = scatterStars(test::starrySky()), b = scatterStars(test::starrySky());
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        EXPECT_EQ(a[i].direction, b[i].direction);
-        EXPECT_EQ(a[i].brightness, b[i].brightness);
-    }
-    SkyDescription other = test::starrySky();
-    other.starSeed = 8;
-    EXPECT_NE(scatterStars(other).front().direction, a.front().direction);
-}
-
-TEST(StarField, CountsAreThoseOfAPoissonProcess) {
-    // Mean and variance of 2000 counts about 25.1: standard errors 0.11 and 0.8.
-    SkyDescription sky = test::starrySky(0.01);
-    sky.starDensity = 2;
-    double sum = 0, squares = 0;
-    constexpr int kSeeds = 2000;
-    for (int seed = 0; seed < kSeeds; ++seed) {
-        sky.starSeed = std::uint32_t(seed);
-        const double count = double(scatterStars(sky).size());
-        sum += count;
-        squares += count * count;
-    }
-    const double mean = sum / kSeeds, variance = squares / kSeeds - mean * mean, exact = 8 * std::numbers::pi;
-    EXPECT_NEAR(mean, exact, 5.5 * std::sqrt(exact / kSeeds));
-    EXPECT_NEAR(variance, exact, 5.5 * exact * std::sqrt(2.1 / kSeeds));
-}
-
-TEST(StarField, DiscsDoNotOverlap) {
-    for (const double size : {0.001, 2.0, 5.0}) {
-        SkyDescription sky = test::starrySky(size);
-        sky.starDensity = size == 5.0 ? 16 : 100;  // close to a tenth of the sky
-        const std::vector<Star> stars = scatterStars(sky);
-        const double least = 2 * std::sin(size * std::numbers::pi / 360);
-        for (std::size_t i = 0; i < stars.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j)
-                ASSERT_GE(glm::distance(glm::dvec3(stars[i].direction), glm::dvec3(stars[j].direction)), least);
-    }
-}
-
-TEST(StarField, PlacesAndBrightnessFollowTheirLaws) {
-    SkyDescription sky = test::starrySky(0.001);
-    sky.starDensity = 10'000;
-    const std::vector<Star> stars = scatterStars(sky);
-    // Kolmogorov's distance of n values from their law is beyond 2.72 / sqrt(n) with probability 1e-6.
-    const auto expectUniform = [&](auto value, const char* what) {
-        std::vector<double> values;
-        for (const Star& star : stars) values.push_back(value(star));
-        std::ranges::sort(values);
-        double worst = 0;
-        for (std::size_t i = 0; i < values.size(); ++i)
-            worst = std::max(worst, std::abs(values[i] - (double(i) + 0.5) / double(values.size())));
-        EXPECT_LT(worst * std::sqrt(double(values.size())), 2.72) << what;
-    };
-    const double most = std::pow(kFaintestStar, -1.5);
-    expectUniform([](const Star& star) { return 0.5 + 0.5 * double(star.direction.z); }, "z");
-    expectUniform([](const Star& star) { return 0.5 + 0.5 * double(star.direction.x); }, "x");
-    expectUniform([&](const Star& star) { return (std::pow(star.brightness, -1.5) - 1) / (most - 1); }, "brightness");
-}
-
 TEST(StarGrid, FindsWhatASearchOfAllStarsFinds) {
     struct Case {
         double size, density;
