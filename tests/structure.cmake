@@ -13,6 +13,7 @@ structure_test(EveryMirroredFunctionHasAParityRecord ${Python3_EXECUTABLE} ${too
 structure_test(FilesAndFunctionsStaySmall ${Python3_EXECUTABLE} ${tools}/check_sizes.py)
 structure_test(CodeIsFormatted bash ${tools}/check_style.sh)
 structure_test(ChecksFindSeededViolations ${Python3_EXECUTABLE} ${tools}/checks_test.py)
+structure_test(ToolsAnswerMistakesWithoutATraceback ${Python3_EXECUTABLE} ${tools}/tools_test.py)
 
 # tools/validate itself, on its cheapest cases.
 add_test(NAME Validation.PassesWhatIsRightAndFailsWhatIsWrong

@@ -6,6 +6,7 @@ Each line of a violation: file:line: what is included, what is allowed.
 
 import sys
 
+from command import run
 from source_text import files, includes, report, repository
 
 # Folder -> what it may include besides itself and shaders/shared.
@@ -66,4 +67,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run(main)

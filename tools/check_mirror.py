@@ -9,6 +9,7 @@ one side can have is exempt when its comment says why: a function by a line `// 
 import itertools
 import sys
 
+from command import run
 from source_text import files, functions, opening_comment, report, repository
 
 
@@ -54,4 +55,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run(main)

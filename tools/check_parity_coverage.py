@@ -10,6 +10,7 @@ import re
 import sys
 
 from check_mirror import SHADER_ONLY, modules, names
+from command import run
 from source_text import files, report, repository
 
 WHOLE_PATHS = {"integrator/path_tracer", "integrator/vertex", "integrator/emission"}
@@ -39,4 +40,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run(main)

@@ -3,6 +3,7 @@
 
 import sys
 
+from command import run
 from source_text import files, functions, report, repository
 
 FOLDERS = ("host", "shaders", "tests", "tools")
@@ -35,4 +36,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run(main)

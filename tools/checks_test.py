@@ -98,7 +98,7 @@ class Checks(unittest.TestCase):
             shutil.rmtree(self.root / folder)
         for name in PYTHON_CHECKS:
             result = self.run_check(name)
-            self.assertEqual(result.returncode, 1, name)
+            self.assertEqual(result.returncode, 2, name)
             self.assertIn("missing", result.stderr)
 
     def test_parity_coverage_finds_a_function_without_a_record(self):

@@ -6,11 +6,13 @@
 The arcade is a wall of round arches on square piers along x, five bays of 2.4 units, with plinths, imposts and a cornice;
 its texture coordinates are lengths, one repeat every 1.2 units. The same files every time.
 """
+import argparse
 import math
 import pathlib
 import struct
-import sys
 import zlib
+
+from command import run
 
 BAYS, BAY, OPENING, SPRING, HEIGHT, DEPTH = 5, 2.4, 1.64, 2.05, 3.7, 0.56
 SEGMENTS = 20
@@ -155,11 +157,14 @@ def write_png(path, size, color):
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent / "scenes"
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("folder", nargs="?", type=pathlib.Path, help="to write into",
+                        default=pathlib.Path(__file__).resolve().parent.parent / "scenes")
+    folder = parser.parse_args().folder
     arcade().write(folder / "arcade.obj")
     write_png(folder / "ashlar.png", 256, ashlar)
     write_png(folder / "paving.png", 256, paving)
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

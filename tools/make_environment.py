@@ -5,9 +5,11 @@ The columns are centred on (i + 1/2) / WIDTH of a turn, the rows lie at j / (HEI
 nadir: the convention of scenes/README.md. Radiance (.hdr) format, run-length encoded; the same bytes every time.
 """
 
+import argparse
 import math
 import pathlib
-import sys
+
+from command import run
 
 WIDTH, HEIGHT = 192, 97
 SUN_AZIMUTH, SUN_HEIGHT = math.radians(118), math.radians(34)
@@ -94,7 +96,9 @@ def encode(channel):
 
 def main():
     folder = pathlib.Path(__file__).resolve().parents[1] / "scenes" / "environments"
-    output = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else folder / "afternoon.hdr"
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("file", nargs="?", type=pathlib.Path, help="to write", default=folder / "afternoon.hdr")
+    output = parser.parse_args().file
     output.parent.mkdir(exist_ok=True)
     sun = (math.cos(SUN_HEIGHT) * math.sin(SUN_AZIMUTH), math.sin(SUN_HEIGHT),
            -math.cos(SUN_HEIGHT) * math.cos(SUN_AZIMUTH))
@@ -113,4 +117,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

@@ -5,8 +5,10 @@ A trefoil knot of a tube with a wavy section, which shades and lights itself. It
 as that is usually published, so that either fits the scene. The same file every time.
 """
 
+import argparse
 import math
-import sys
+
+from command import run
 
 ALONG, AROUND = 160, 18
 LOWER, UPPER = (-0.0947, 0.0330, -0.0619), (0.0610, 0.1873, 0.0588)
@@ -54,9 +56,12 @@ def fitted(vertices):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("file", metavar="FILE.obj", help="to write")
+    options = parser.parse_args()
     vertices = fitted([vertex(i, j) for i in range(ALONG) for j in range(AROUND)])
     index = lambda i, j: 1 + i % ALONG * AROUND + j % AROUND  # noqa: E731
-    with open(sys.argv[1], "w", encoding="ascii") as file:
+    with open(options.file, "w", encoding="ascii") as file:
         for v in vertices:
             file.write("v " + " ".join(f"{1000 * x:.3f}".rstrip("0").rstrip(".") + "e-3" for x in v) + "\n")
         for i in range(ALONG):
@@ -66,4 +71,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

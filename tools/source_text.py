@@ -2,8 +2,9 @@
 
 import pathlib
 import re
-import sys
 from dataclasses import dataclass
+
+from command import Refusal
 
 
 @dataclass
@@ -22,7 +23,7 @@ def repository(arguments):
 def files(folder, *suffixes):
     """Of that kind below a folder, which must exist: a check that finds nothing to look at has not checked."""
     if not folder.is_dir():
-        sys.exit(f"{folder}: missing")
+        raise Refusal(f"{folder}: missing")
     return sorted(path for path in folder.rglob("*") if path.suffix in suffixes and path.is_file())
 
 

@@ -23,11 +23,12 @@ import sys
 import tempfile
 import time
 
-os.environ.setdefault("DRJIT_LIBLLVM_PATH", "/usr/lib/x86_64-linux-gnu/libLLVM-19.so")
-import mitsuba as mi  # noqa: E402
-import numpy as np  # noqa: E402
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from command import Refusal, mitsuba_in, needs, number_in, run  # noqa: E402
 
-mi.set_variant("llvm_ad_rgb")
+os.environ.setdefault("DRJIT_LIBLLVM_PATH", "/usr/lib/x86_64-linux-gnu/libLLVM-19.so")
+(np,) = needs("numpy")
+mi = mitsuba_in("llvm_ad_rgb")
 TRIM = 0.001
 PASSES = {"vulkan": (8, 40), "reference": (2, 10)}
 MITSUBA_PASSES = 4
@@ -50,9 +51,11 @@ class Parhelion:
         self.passes = PASSES["reference" if "reference" in options else "vulkan"]
 
     def render(self, samples, out, seed):
-        run = subprocess.run(self.command + ["--spp", str(samples), "--seed", str(seed), "-o", out],
-                             capture_output=True, text=True, check=True)
-        return json.loads(run.stdout)["seconds"]
+        done = subprocess.run(self.command + ["--spp", str(samples), "--seed", str(seed), "-o", out],
+                              capture_output=True, text=True)
+        if done.returncode != 0:
+            raise Refusal(done.stderr.strip() or f"{self.command[0]}: exit code {done.returncode}")
+        return json.loads(done.stdout)["seconds"]
 
     def round(self, seed):
         few, many = self.passes
@@ -121,14 +124,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="+")
     parser.add_argument("--program", default="build/parhelion")
-    parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--size", type=int, default=256)
+    parser.add_argument("--rounds", type=number_in(1, 1e6, int), default=5)
+    parser.add_argument("--size", type=number_in(1, 65536, int), default=256)
     parser.add_argument("-D", "--define", action="append", default=[], metavar="NAME=VALUE", help="as of `parhelion`")
     arguments = parser.parse_args()
+    for wrong in (define for define in arguments.define if "=" not in define):
+        parser.error(f"-D: expected NAME=VALUE; got {wrong}")
     print("| scene | renderer | ms a pass | variance | trimmed | efficiency | trimmed |\n|---|---|---|---|---|---|---|")
     for scene in arguments.scenes:
         benchmark(scene, arguments.program, arguments.rounds, arguments.size, arguments.define)
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

@@ -13,13 +13,15 @@ are files in the data beside the project.
 import argparse
 import os
 import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from command import mitsuba_in, needs, number_in, run  # noqa: E402
 
 os.environ.setdefault("DRJIT_LIBLLVM_PATH", "/usr/lib/x86_64-linux-gnu/libLLVM-19.so")
 
-import mitsuba
-import numpy as np
-
-mitsuba.set_variant("llvm_ad_rgb")
+(np,) = needs("numpy")
+mitsuba = mitsuba_in("llvm_ad_rgb")
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHARED = ROOT.parent / "shared" / "data" / "environments"
@@ -86,7 +88,7 @@ def rows(name, bitmap, count, random):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--shared", type=int, default=0, help="directions for each of the files, none by default")
+    parser.add_argument("--shared", type=number_in(0, 1e9, int), default=0, help="directions for each of the files, none by default")
     parser.add_argument("--output", default=ROOT / "tests" / "references" / "environment_maps.csv")
     arguments = parser.parse_args()
     random = np.random.default_rng(1)
@@ -104,4 +106,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

@@ -21,7 +21,10 @@ import sys
 import time
 import typing
 
-import numpy as np
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from command import Refusal, mitsuba_in, needs, number_in, run  # noqa: E402
+
+(np,) = needs("numpy")
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 REFERENCES = ROOT / "tests" / "references"
@@ -141,8 +144,8 @@ def write(mi, moments, spp, file):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="of " + ", ".join(SCENES))
-    parser.add_argument("--size", type=int, default=64, help="width and height in pixels")
-    parser.add_argument("--minutes", type=float, default=math.inf, help="time after which a scene is left unfinished")
+    parser.add_argument("--size", type=number_in(1, 65536, int), default=64, help="width and height in pixels")
+    parser.add_argument("--minutes", type=number_in(0, math.inf), default=math.inf, help="time after which a scene is left unfinished")
     parser.add_argument("--fresh", action="store_true", help="start anew instead of adding seeds to what is there")
     parser.add_argument("--variant", default="llvm_ad_rgb")
     arguments = parser.parse_args()
@@ -151,14 +154,12 @@ def main():
         parser.error(f"no scene {', '.join(sorted(unknown))}; there are {', '.join(SCENES)}")
 
     os.environ.setdefault("DRJIT_LIBLLVM_PATH", "/usr/lib/x86_64-linux-gnu/libLLVM-19.so")
-    import mitsuba as mi
-
-    mi.set_variant(arguments.variant)
+    mi = mitsuba_in(arguments.variant)
     for name in arguments.scenes or SCENES:
         scene = SCENES[name]
         spp = scene.samples
         if not scene.file.exists():
-            sys.exit(f"{scene.file}: missing")
+            raise Refusal(f"{scene.file}: missing")
         start = time.monotonic()
         output = REFERENCES / f"{name}.exr"
         moments = Moments() if arguments.fresh else read(mi, output, arguments.size, spp)
@@ -170,4 +171,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

@@ -10,10 +10,12 @@ per steradian that eval_pdf of Mitsuba 3 gives in single precision. The scene te
 import csv
 import math
 import pathlib
+import sys
 
-import mitsuba
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from command import mitsuba_in, run  # noqa: E402
 
-mitsuba.set_variant("scalar_rgb")
+mitsuba = mitsuba_in("scalar_rgb")
 
 TABLE = pathlib.Path(__file__).resolve().parents[2] / "tests" / "references" / "phase_functions.csv"
 ANGLES = 21
@@ -49,4 +51,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

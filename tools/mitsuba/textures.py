@@ -11,12 +11,14 @@ a surface of that reflectance has there; "$bitmap" is a bitmap of 3 x 2 texels w
 import csv
 import pathlib
 import random
+import sys
 import tempfile
 
-import mitsuba
-import numpy
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from command import mitsuba_in, needs, run  # noqa: E402
 
-mitsuba.set_variant("scalar_rgb")
+(numpy,) = needs("numpy")
+mitsuba = mitsuba_in("scalar_rgb")
 
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / "tests" / "references"
 PLACED = ('<transform name="to_world"><rotate x="0.48" y="0.6" z="-0.64" angle="50"/><scale value="0.7"/>'
@@ -121,4 +123,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

@@ -1,6 +1,6 @@
 """tools/validate: compares renders with references, case by case, and writes a page about it.
 
-Exit code 0 if every case that could run passed, 1 if one failed, 2 for wrong usage.
+Exit code 0 if every case that could run passed, 1 if one failed, 2 for wrong usage, 130 for Ctrl-C.
 """
 
 import argparse
@@ -9,11 +9,14 @@ import pathlib
 import sys
 import time
 
-import page
-from cases import ROOT, TestCase
-from program import Program
-from run import Settings, run_case
-from table import CASES
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+
+import page  # noqa: E402
+from cases import ROOT, TestCase  # noqa: E402
+from command import Refusal, number_in, run  # noqa: E402
+from program import Program  # noqa: E402
+from run import Settings, run_case  # noqa: E402
+from table import CASES  # noqa: E402
 
 MARKS = {"pass": "passed", "fail": "FAILED", "skipped": "skipped", "error": "ERROR"}
 
@@ -24,31 +27,50 @@ def parse(arguments):
     parser.add_argument("--only", metavar="CASE", action="append", help="this case only; may be repeated")
     parser.add_argument("--list", action="store_true", help="print the names of the cases")
     parser.add_argument("--backend", default="vulkan", choices=("vulkan", "reference", "reference-double"))
-    parser.add_argument("--spp-scale", metavar="X", type=float, default=1.0,
+    parser.add_argument("--spp-scale", metavar="X", type=number_in(1e-6, 1e6), default=1.0,
                         help="multiplies the sample counts; below 1, limits that need the full count are left out")
     parser.add_argument("--reference", metavar="FILE", type=pathlib.Path,
                         help="measure the one case given by --only against this image instead")
     parser.add_argument("--out", metavar="DIR", type=pathlib.Path, default=ROOT / "validation",
                         help="folder for the results")
-    parser.add_argument("--build", metavar="DIR", type=pathlib.Path, default=ROOT / "build", help="the build folder")
-    parser.add_argument("--test-programs", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--build", metavar="DIR", type=pathlib.Path, default=ROOT / "build",
+                        help="a build folder that is used as it is; the default one is brought up to date first")
+    parser.add_argument("--targets", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     names = [case.name for case in CASES]
     unknown = set(options.only or ()) - set(names)
     if unknown:
         parser.error(f"no case {', '.join(sorted(unknown))}; there are {', '.join(names)}")
-    if not options.spp_scale > 0:
-        parser.error(f"--spp-scale must be above 0; got {options.spp_scale:g}")
     if options.reference and len(options.only or ()) != 1:
         parser.error("--reference needs exactly one --only")
-    if options.reference and not options.reference.exists():
-        parser.error(f"--reference: {options.reference} is missing")
+    if options.reference and not options.reference.is_file():
+        parser.error(f"--reference: expected an image; {options.reference} is no file")
     return options
 
 
-def test_programs():
-    """Those of the test programs that cases run and that exist."""
-    return sorted({case.program for case in CASES if isinstance(case, TestCase) and case.source()})
+def chosen(options):
+    return [case for case in CASES if not options.only or case.name in options.only]
+
+
+def targets(cases):
+    """What has to be built for them: the program, and the test programs that exist."""
+    return ["parhelion", *sorted({case.program for case in cases if isinstance(case, TestCase) and case.source()})]
+
+
+def prepare_folder(folder):
+    """Makes the folder of the results and that of their images, which it returns."""
+    images = folder.resolve() / "images"
+    try:
+        images.mkdir(parents=True, exist_ok=True)
+        unfinished(folder).touch()
+        unfinished(folder).unlink()
+    except OSError as error:
+        raise Refusal(f"--out: expected a folder to write into; got {folder}: {error.strerror}") from error
+    return images
+
+
+def unfinished(folder):
+    return folder / "index.unfinished"
 
 
 def estimate(seconds):
@@ -85,26 +107,24 @@ def run_all(cases, settings):
 
 def main():
     options = parse(sys.argv[1:])
-    if options.list or options.test_programs:
-        for name in test_programs() if options.test_programs else [case.name for case in CASES]:
-            print(name)
+    cases = chosen(options)
+    if options.list or options.targets:
+        print("\n".join(targets(cases) if options.targets else [case.name for case in CASES]))
         return 0
-    cases = [case for case in CASES if not options.only or case.name in options.only]
-    options.out.mkdir(parents=True, exist_ok=True)
-    images = options.out.resolve() / "images"
-    images.mkdir(exist_ok=True)
-    reference = options.reference.resolve() if options.reference else None
     program = Program(options.build.resolve(), ROOT, options.backend)
+    if not program.is_there():
+        raise Refusal(f"--build: expected a build folder with the program parhelion in it; got {options.build}")
+    images = prepare_folder(options.out)
+    reference = options.reference.resolve() if options.reference else None
     start = time.monotonic()
     results = run_all(cases, Settings(program, images, options.spp_scale, reference))
     file = options.out / "index.html"
-    unfinished = file.with_suffix(".unfinished")
-    unfinished.write_text(page.render(results, time.monotonic() - start, options), encoding="utf-8")
-    os.replace(unfinished, file)
+    unfinished(options.out).write_text(page.render(results, time.monotonic() - start, options), encoding="utf-8")
+    os.replace(unfinished(options.out), file)
     count = {status: sum(result.status == status for result in results) for status in MARKS}
     print(", ".join(f"{count[status]} {word}" for status, word in MARKS.items() if count[status]) + f"; {file}")
     return 1 if count["fail"] or count["error"] else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run(main)

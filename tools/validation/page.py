@@ -119,7 +119,8 @@ def section(result):
 
 INTRODUCTION = """<p>Each picture is rendered here and measured, in linear RGB, against a reference: a picture by
 Mitsuba 3.9.1 with the variance of its mean, from independent seeds, or one computed from a formula. <em>Baseline</em>
-figures are those of the renderer that this one starts from, for the scene of that kind in its own report.</p>
+figures are those of the renderer that Parhelion starts from, an extension of Nori, for the scene of that kind in its
+own report.</p>
 <p>Between two unbiased pictures the mean squared error is the sum of their variances. Where a case demands that, as
 where it demands agreement by z, the test has a significance of 10<sup>−6</sup>, a family of regions sharing it by
 Šidák; the noise of both sides counts. Intervals are 95 % ones, that of the mean from the lowest to the highest end of
@@ -130,8 +131,6 @@ def render(results, seconds, options):
     """The whole page. Reads the pictures that the results name."""
     css = (pathlib.Path(__file__).parent / "page.css").read_text()
     command = shlex.join(["tools/validate", *sys.argv[1:]])
-    if "--build" in sys.argv[1:2]:
-        command = shlex.join(["tools/validate", *sys.argv[3:]])
     body = [f"<h1>Parhelion: validation</h1>\n{meta(results, seconds, options)}\n{INTRODUCTION}",
             f"<pre>{text(command)}</pre>", summary(results)] + [section(result) for result in results]
     return ("<!doctype html>\n<html lang=en>\n<head><meta charset=utf-8>"

@@ -1,8 +1,10 @@
 """Runs the program and the tests, and keeps the commands that did."""
 
 import json
+import os
 import pathlib
 import shlex
+import signal
 import subprocess
 
 
@@ -22,11 +24,28 @@ class Program:
         self.build, self.root, self.backend = pathlib.Path(build), root, backend
         self.path = self.build / "parhelion"
 
+    def is_there(self):
+        """Whether the program can be run."""
+        return self.path.is_file() and os.access(self.path, os.X_OK)
+
+    def _start(self, command):
+        """Runs a command to its end, whatever that is."""
+        try:
+            return subprocess.run([str(part) for part in command], cwd=self.root, capture_output=True, text=True,
+                                  errors="replace")
+        except OSError as error:
+            raise Failure(f"{command[0]}: {error.strerror}") from error
+
     def _run(self, command, accepted):
-        run = subprocess.run([str(part) for part in command], cwd=self.root, capture_output=True, text=True)
+        """The standard output, as JSON, of a command that ends with one of the accepted codes."""
+        run = self._start(command)
         if run.returncode not in accepted:
-            raise Failure((run.stderr or run.stdout).strip() or f"exit code {run.returncode}")
-        return run
+            end = signal.Signals(-run.returncode).name if run.returncode < 0 else f"exit code {run.returncode}"
+            raise Failure((run.stderr or run.stdout).strip() or end)
+        try:
+            return json.loads(run.stdout)
+        except json.JSONDecodeError as error:
+            raise Failure(f"{command[0]} {command[1]} --json: {error}") from error
 
     def render(self, scene, out, samples, size, defines, options):
         """Renders an EXR; returns the program's report and the command as it is typed."""
@@ -34,7 +53,7 @@ class Program:
                    "--feature-spp", 0]
         command += [part for name, value in defines for part in ("-D", f"{name}={value}")]
         command += list(options) + (["--backend", self.backend] if self.backend != "vulkan" else [])
-        report = json.loads(self._run(command + ["--json", "--quiet"], (0,)).stdout)
+        report = self._run(command + ["--json", "--quiet"], (0,))
         return report, shown(command, self.root)
 
     def compare(self, image, reference, limits=(), pictures=None, error_range=None):
@@ -42,7 +61,7 @@ class Program:
         command = [self.path, "compare", image, reference, *limits]
         drawn = ["--pictures", pictures] if pictures else []
         drawn += ["--error-range", f"{error_range:g}"] if error_range else []
-        figures = json.loads(self._run(command + drawn + ["--json"], (0, 1)).stdout)
+        figures = self._run(command + drawn + ["--json"], (0, 1))
         return figures, shown(command, self.root)
 
     def run_test(self, name, filter_):
@@ -50,7 +69,7 @@ class Program:
         command = [self.build / "tests" / name, f"--gtest_filter={filter_}"]
         if not command[0].exists():
             raise Failure(f"no test program {name}")
-        run = subprocess.run([str(part) for part in command], cwd=self.root, capture_output=True, text=True)
+        run = self._start(command)
         chrome = ("[", "Note: Google Test", "Running main")
         lines = [line for line in run.stdout.splitlines() if line.strip() and not line.startswith(chrome)]
         if "[==========] Running 0 tests" in run.stdout:
