@@ -58,7 +58,16 @@ PARITY = """TEST(Phase, Agrees) {
 }
 """
 
-PYTHON_CHECKS = ("check_floors.py", "check_mirror.py", "check_parity_coverage.py", "check_sizes.py")
+HARD_CASES = """# Hard cases
+
+- **H1** g next to 1. Here: products. `parity/phase_test` `Phase.Agrees`.
+- **H2** g = 0. The
+  tests of H1.
+- **H3** Refraction. Here: not
+  applicable yet.
+"""
+
+PYTHON_CHECKS = ("check_floors.py", "check_hard_cases.py", "check_mirror.py", "check_parity_coverage.py", "check_sizes.py")
 
 
 class Checks(unittest.TestCase):
@@ -71,6 +80,8 @@ class Checks(unittest.TestCase):
         self.write("host/base/math.h", "#pragma once\n#include <cmath>\n")
         self.write("host/gpu/device.cpp", '#include <volk.h>\n#include "base/math.h"\n')
         self.write("tests/parity/phase_test.cpp", PARITY)
+        self.write("tests/HARD_CASES.md", HARD_CASES)
+        self.write("scenes/fog.xml", "<!-- H1 -->\n")
         self.write("tools/make.cpp", "int main() {}\n")
         self.write(".clang-format", "BasedOnStyle: Google\n")
 
@@ -112,6 +123,25 @@ class Checks(unittest.TestCase):
     def test_parity_coverage_tells_modules_apart(self):
         self.write("shaders/light/sky.glsl", "float evalPhase(float mu) { return mu; }\n")
         self.assert_finds("check_parity_coverage.py", "shaders/light/sky.glsl: no parity record", "evalPhase")
+
+    def test_hard_cases_finds_one_that_nobody_explains(self):
+        self.write("shaders/volume/walk.glsl", "// Planes from the integer cell\n// (H27).\n")
+        self.write("tests/unit/walk_test.cpp", "TEST(Walk, EndsH1H28) {}\n")
+        self.assert_finds("check_hard_cases.py", "shaders/volume/walk.glsl:2: H27", "tests/unit/walk_test.cpp:1: H28")
+
+    def test_hard_cases_reads_no_other_words(self):
+        self.write("tools/words.py", "# H264, RGH4, H4x, PATH9, H0\n")
+        self.assertEqual(self.run_check("check_hard_cases.py").returncode, 0)
+
+    def test_hard_cases_finds_tests_that_are_gone(self):
+        self.write("tests/HARD_CASES.md", HARD_CASES.replace("Phase.Agrees", "Phase.Differs"))
+        self.assert_finds("check_hard_cases.py", "H1 names Phase.Differs")
+        self.write("tests/HARD_CASES.md", HARD_CASES.replace("parity/phase_test", "unit/phase_test"))
+        self.assert_finds("check_hard_cases.py", "no tests/unit/phase_test.cpp")
+
+    def test_hard_cases_finds_entries_without_a_test_and_twins(self):
+        self.write("tests/HARD_CASES.md", HARD_CASES.replace("not\n  applicable yet", "nothing") + "- **H1** The tests of H1.\n")
+        self.assert_finds("check_hard_cases.py", "H3 names no test", "H1 has two entries")
 
     def run_style(self):
         result = subprocess.run(["bash", TOOLS / "check_style.sh", self.root], capture_output=True, text=True)

@@ -105,7 +105,8 @@ class Tools(unittest.TestCase):
         self.assertEqual(error, "")
 
     def test_checks_refuse_folders_that_are_no_project(self):
-        for name in ("check_floors.py", "check_mirror.py", "check_parity_coverage.py", "check_sizes.py"):
+        for name in ("check_floors.py", "check_mirror.py", "check_parity_coverage.py", "check_sizes.py",
+                     "check_hard_cases.py"):
             self.assert_refuses([name, "missing"], TOOLS / name, self.folder)
         (self.folder / "host").mkdir()
         (self.folder / "host" / "latin.cpp").write_bytes(b"// \xe9\n")

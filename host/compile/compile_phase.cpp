@@ -16,7 +16,7 @@ namespace {
 
 using Type = PhaseDescription::Type;
 
-constexpr float kLargestG = 1.0f - 0x1p-20f;  // numerics.md H1
+constexpr float kLargestG = 1.0f - 0x1p-20f;  // H1
 
 float limitG(double g, const std::string& subject, CompiledScene& scene) {
     const float limited = std::clamp(float(g), -kLargestG, kLargestG);

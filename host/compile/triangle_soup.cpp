@@ -13,7 +13,7 @@ glm::dvec3 doubledNormal(const TriangleVertices& t) {
     return glm::cross(glm::dvec3(t[1]) - glm::dvec3(t[0]), glm::dvec3(t[2]) - glm::dvec3(t[0]));
 }
 
-/// Area^2 <= 1e-30 L^4: no direction of its normal is left in double (numerics.md H45).
+/// Area^2 <= 1e-30 L^4: no direction of its normal is left in double (H45).
 bool isDegenerate(const TriangleVertices& t) {
     double longest = 0.0;
     for (int k = 0; k < 3; ++k) {

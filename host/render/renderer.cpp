@@ -177,7 +177,7 @@ bool Renderer::step() {
 void Renderer::finishEarly() {
     State& s = *state_;
     s.stopping = true;
-    // Every batch takes as many samples as the first (numerics H81): only there is it still open how many.
+    // Every batch takes as many samples as the first (H81): only there is it still open how many.
     if (s.batch == 0) s.windowSize = std::min(s.windowSize, s.limit);
 }
 

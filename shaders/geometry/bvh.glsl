@@ -8,7 +8,7 @@
 #include "geometry/triangle.glsl"
 
 // Shader only: 1 / d with the largest finite number for 1 / 0, so that a plane through the origin gives 0 and not
-// 0 * infinity, which would prune both of the boxes that share the face a ray runs in (numerics H39).
+// 0 * infinity, which would prune both of the boxes that share the face a ray runs in (H39).
 vec3 finiteInverse(vec3 d) { return mix(1.0 / d, vec3(3.4028234e38), equal(d, vec3(0.0))); }
 
 // Entry distance of a box given per axis plane distances, or kInfinity; the far side is widened by

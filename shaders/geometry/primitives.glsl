@@ -30,7 +30,7 @@ vec2 sphereInterval(vec3 center, float radius, vec3 origin, vec3 direction) {
 }
 
 // The same for the image of [-1, 1]^3. An axis along which the ray does not move limits nothing
-// inside and misses outside (numerics H39).
+// inside and misses outside (H39).
 vec2 boxInterval(mat4x3 localFromWorld, vec3 origin, vec3 direction) {
     vec3 o = localFromWorld * vec4(origin, 1.0);
     vec3 d = mat3(localFromWorld) * direction;

@@ -1,4 +1,4 @@
-// Compensated accumulation (Kahan): a million equal samples must not drift (numerics H77, H80).
+// Compensated accumulation (Kahan): a million equal samples must not drift (H77, H80).
 #ifndef INTEGRATOR_FILM_GLSL
 #define INTEGRATOR_FILM_GLSL
 

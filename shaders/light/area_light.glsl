@@ -42,7 +42,7 @@ vec3 emissionAt(Light light, vec2 uv) {
     return light.emission * textureAt(light.texture, uv);
 }
 
-// 1 - cos of the half angle under which a sphere is seen from outside; 0 from inside (numerics H62) and from so close that
+// 1 - cos of the half angle under which a sphere is seen from outside; 0 from inside (H62) and from so close that
 // rounding could take a point of the sphere for one outside: scattering finds the light there.
 float oneMinusCosCone(vec3 toCenter, float radius) {
     float sine2 = radius * radius / dot(toCenter, toCenter);

@@ -16,7 +16,7 @@ EnvironmentPlace environmentPlace(vec3 d) {
     vec3 local = vec3(dot(environmentMap.localX, d), dot(environmentMap.localY, d), dot(environmentMap.localZ, d));
     float turn = angleOf(local.x, -local.z) * (0.5 * kInvPi);  // within half a turn
     float x = turn * float(environmentMap.width) - 0.5;
-    // The polar angle from both coordinates: next to the poles its cosine has no digits left (numerics H58).
+    // The polar angle from both coordinates: next to the poles its cosine has no digits left (H58).
     float y = angleOf(length(local.xz), local.y) * kInvPi * float(environmentMap.height - 1u);
     float left = floor(x);
     int column = int(left) + (left < 0.0 ? int(environmentMap.width) : 0);

@@ -4,7 +4,7 @@
 
 // Weight of a sample drawn with density pdfA that pdfB could also have produced (Veach 1997,
 // balance heuristic), through the ratio: 0 when pdfA is 0, finite for any finite or infinite
-// densities (numerics H69, H70).
+// densities (H69, H70).
 float balanceHeuristic(float pdfA, float pdfB) {
     return pdfA > 0.0 ? (isinf(pdfA) ? 1.0 : 1.0 / (1.0 + pdfB / pdfA)) : 0.0;
 }

@@ -17,7 +17,7 @@ vec3 uniformSphere(vec2 u) {
 }
 
 // Unit vector within a cone about +z, density 1 / (2 pi oneMinusCosMax). One minus the cosine is
-// what stays accurate in narrow cones (numerics H62).
+// what stays accurate in narrow cones (H62).
 vec3 uniformCone(vec2 u, float oneMinusCosMax) {
     vec2 sc = sinCosTurn(u.y);
     float c = oneMinusCosMax * u.x;

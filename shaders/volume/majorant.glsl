@@ -1,6 +1,6 @@
 // Walks a ray through the majorant cells of a medium.
 //
-// Distances are recomputed from integer planes at every step: nothing drifts (numerics H26). Border
+// Distances are recomputed from integer planes at every step: nothing drifts (H26). Border
 // cells extend outwards, as the clamped field does.
 #ifndef VOLUME_MAJORANT_GLSL
 #define VOLUME_MAJORANT_GLSL

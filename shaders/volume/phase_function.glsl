@@ -22,7 +22,7 @@ struct PhaseFunction {
 PhaseFunction noPhase() { return PhaseFunction(kPhaseIsotropic, 0.0, 0.0, 1.0, 0u, 1u, 0u); }
 
 // Henyey-Greenstein from the squared distance of the unit directions: nothing cancels next to
-// mu = +-1 (numerics H5). |g| <= 1 - 2^-20.
+// mu = +-1 (H5). |g| <= 1 - 2^-20.
 float evalHenyeyGreenstein(float g, vec3 wo, vec3 wi) {
     float a = abs(g);
     vec3 difference = g >= 0.0 ? wi + wo : wi - wo;
@@ -32,7 +32,7 @@ float evalHenyeyGreenstein(float g, vec3 wo, vec3 wi) {
 }
 
 // With 1 - mu and 1 + mu as products, every g and u in [0, 1) keeps full accuracy: relative error
-// <= 1e-6 (numerics H1-H4).
+// <= 1e-6 (H1-H4).
 vec3 sampleHenyeyGreenstein(float g, float u) {
     float a = abs(g);
     float v = g >= 0.0 ? u : 1.0 - u;

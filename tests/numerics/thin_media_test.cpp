@@ -31,7 +31,7 @@ double collidingShare(double tau, const Exponential& exponential) {
     return std::ldexp(double(low), -48);
 }
 
-// numerics H13: 1 - exp(-tau) to a relative 1e-6, where floats next to 1 are 6e-8 apart.
+// H13: 1 - exp(-tau) to a relative 1e-6, where floats next to 1 are 6e-8 apart.
 TEST(ThinMedia, CollideWithTheirProbability) {
     const auto ours = [](std::uint64_t n) {
         return reference::exponential<float>(std::uint32_t(n >> 24) << 8, std::uint32_t(n & 0xffffff));
@@ -80,7 +80,7 @@ TrackedMedium halfEmpty(float tEnd) {
     return medium;
 }
 
-// numerics H54: the segment is cut to the grid before anything is multiplied by its length.
+// H54: the segment is cut to the grid before anything is multiplied by its length.
 TEST(EndlessRays, SeeAGridAsRaysWithAnEndDo) {
     const TrackedMedium finite = halfEmpty(20), endless = halfEmpty(kInfinite);
     for (const bool isGrey : {true, false}) {

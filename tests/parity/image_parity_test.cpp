@@ -158,7 +158,7 @@ std::vector<PathPair> tracePaths(const CompiledScene& onDevice, const CompiledSc
 
 double largest(glm::dvec3 v) { return std::max({v.x, v.y, v.z}); }
 
-/// A path's radiance may be off by 4e-7 for each event and for the camera and the film (accuracy.md: three roundings an
+/// A path's radiance may be off by 4e-7 for each event and for the camera and the film (three roundings an
 /// event, adding up in the worst case), relative to itself, or to the image's mean where it brings less than that: a
 /// nearly black path of grazing light is all cancellation.
 Parity compare(const std::vector<PathPair>& paths) {

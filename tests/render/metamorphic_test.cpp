@@ -11,7 +11,7 @@
 #include "support/render_scene.h"
 #include "support/run_program.h"
 
-// Relations between images that hold without a reference (numerics.md, "Metamorphic tests"): to the bit where the
+// Relations between images that hold without a reference: to the bit where the
 // arithmetic is the same up to powers of two, and within the noise where it is another estimate of the same image.
 namespace parhelion::test {
 namespace {

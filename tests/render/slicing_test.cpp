@@ -78,7 +78,7 @@ TEST(Slicing, RunsAddUp) {
     EXPECT_GT(countUnequalSums(whole, begin, renderRange(scene, 4, 5)), whole.pixels.size() / 2);
 }
 
-// numerics H76: 32 bits of sample index would repeat.
+// H76: 32 bits of sample index would repeat.
 TEST(Slicing, SampleIndicesHave64Bits) {
     constexpr std::uint64_t kWrap = std::uint64_t(1) << 32;
     const CompiledScene scene = cloudScene();
@@ -110,7 +110,7 @@ std::size_t countOtherSums(const Film& film, const std::function<std::uint64_t(s
     return others;
 }
 
-// numerics H81: a film in two batches under a sky of radiance 1, whose sums are counts, stopped while the second batch
+// H81: a film in two batches under a sky of radiance 1, whose sums are counts, stopped while the second batch
 // is behind the first: each pixel is divided by what it holds, then and at the end.
 TEST(Slicing, SamplesAreCountedPerPixelWhereverARenderStops) {
     const std::string sky = R"(<emitter type="constant"><float name="radiance" value="1"/></emitter>)";

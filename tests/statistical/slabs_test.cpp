@@ -38,7 +38,7 @@ protected:
     std::uint32_t seed_ = GetParam() == Backend::Vulkan ? 1000 : 2000;
 };
 
-// Extinction times 1.01 fails this, as would a depth lost at the boundary (numerics H85).
+// Extinction times 1.01 fails this, as would a depth lost at the boundary (H85).
 TEST_P(Slabs, ReflectAndTransmitTheExactShare) {
     const auto table = sharedFile("references/slabs.csv");
     if (table.empty()) GTEST_SKIP() << "../shared/references/slabs.csv is missing";

@@ -3,7 +3,7 @@
 #include "support/furnace.h"
 
 // What absorbs nothing in a uniform sky looks like the sky: L = 1 whatever shape, density and phase function
-// (numerics H34). tests/nightly/white_furnace_product_test.cpp has larger crops and the thick ones of the z-tests.
+// (H34). tests/nightly/white_furnace_product_test.cpp has larger crops and the thick ones of the z-tests.
 namespace parhelion {
 namespace {
 

@@ -74,7 +74,7 @@ TEST(SceneTransform, LaterStepsApplyAfterEarlierOnes) {
 }
 
 TEST(SceneTransform, LookAtPutsPlusXToTheLeft) {
-    // formats.md, and Mitsuba's camera: left = up x direction.
+    // As Mitsuba's camera has it: left = up x direction.
     const glm::dmat4 matrix = lookAtMatrix({0, 0, 4}, {0, 0, 0}, {0, 1, 0});
     EXPECT_EQ(glm::dvec3(matrix[2]), glm::dvec3(0, 0, -1));
     EXPECT_EQ(glm::dvec3(matrix[0]), glm::dvec3(-1, 0, 0));

@@ -40,7 +40,7 @@ std::optional<Interval<Real>> sphereInterval(const Sphere<Real>& sphere, const V
     return Interval<Real>{middle - half, middle + half};
 }
 
-/// Slabs in the box's own space. An axis the ray does not move along limits nothing, or everything (numerics H39).
+/// Slabs in the box's own space. An axis the ray does not move along limits nothing, or everything (H39).
 template <typename Real>
 std::optional<Interval<Real>> boxInterval(const Box<Real>& box, const Vec3<Real>& origin, const Vec3<Real>& direction) {
     const Vec3<Real> o = box.localFromWorld.point(origin);

@@ -32,7 +32,7 @@ struct Hit {
     bool found() const { return primitive != kNone; }
 };
 
-/// Keeps the nearer of two candidates. Equal distances: an exit first, then the lowest primitive id (numerics H46).
+/// Keeps the nearer of two candidates. Equal distances: an exit first, then the lowest primitive id (H46).
 template <typename Real>
 void keepNearer(Hit<Real>& nearest, const Hit<Real>& candidate) {
     if (!(candidate.t <= nearest.t)) return;

@@ -36,7 +36,7 @@ TriangleRay<Real> rayShear(const Vec3<Real>& origin, const Vec3<Real>& direction
     return ray;
 }
 
-/// Watertight: a ray through a shared edge hits at least one of the two triangles (numerics H47). No culling.
+/// Watertight: a ray through a shared edge hits at least one of the two triangles (H47). No culling.
 ///
 /// Source: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1).
 template <typename Real>

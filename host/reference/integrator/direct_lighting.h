@@ -34,7 +34,7 @@ DirectionSample<Real> sampleScatterer(const Vertex<Real>& vertex, const Vec2<Rea
                          : sampleDiffuse(vertex.surface.shadingNormal, u);
 }
 
-/// Ray that leaves a vertex; off triangles by their rounding, to the side it goes to (numerics H41).
+/// Ray that leaves a vertex; off triangles by their rounding, to the side it goes to (H41).
 /// Reference only: startRay writes it into the path state.
 template <typename Real>
 Ray<Real> spawnRay(const Vertex<Real>& vertex, const Vec3<Real>& direction) {

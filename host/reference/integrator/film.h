@@ -7,7 +7,7 @@
 
 namespace parhelion::reference {
 
-/// Adds to a sum kept as high + low: compensated in float, exact to double otherwise (numerics H77).
+/// Adds to a sum kept as high + low: compensated in float, exact to double otherwise (H77).
 ///
 /// Source: Kahan 1965, "Further Remarks on Reducing Truncation Errors".
 template <typename Real>

@@ -26,7 +26,7 @@ bool scatter(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex, c
     if (largest == 0) return false;
     const glm::uvec4 words = drawStratified(path.stream, path.quality.sobol, vertex.index, shared::kDrawScatter);
     const Real weight = largest / throughput.meanR();
-    // Far below what a film resolves, roulette at any depth: throughput must not sink into denormals (numerics H37).
+    // Far below what a film resolves, roulette at any depth: throughput must not sink into denormals (H37).
     if (vertex.index >= path.scene.constants.rouletteDepth || weight < Real(1e-20)) {
         const Real survival = std::clamp(weight, Real(0.05), Real(1));
         const Real u = toUniform<Real>(words.w);

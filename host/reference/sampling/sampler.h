@@ -114,7 +114,7 @@ Real exponential(std::uint32_t hi, std::uint32_t lo24) {
     // 1 - (lo24 + 0.5) 2^-24 from the complement of the integer: exact where it is small.
     const Real fraction = (Real(0xffffffu - lo24) + Real(0.5)) * Real(0x1p-24);
     const Real complement = (Real(hi >> 8) + (Real(lo24) + Real(0.5)) * Real(0x1p-24)) * Real(0x1p-24);
-    if (complement < Real(0x1p-10)) return -std::log1p(-complement);  // thin media need its digits (numerics H13)
+    if (complement < Real(0x1p-10)) return -std::log1p(-complement);  // thin media need its digits (H13)
     return -logPositive((Real(0xffffffu - (hi >> 8)) + fraction) * Real(0x1p-24));
 }
 

@@ -21,7 +21,7 @@ Vec3<Real> uniformSphere(const Vec2<Real>& u) {
 }
 
 /// Direction uniform over the cone about +z with the given 1 - cos of its half angle.
-/// 1 - cos is kept throughout: a narrow cone loses nothing (numerics H62).
+/// 1 - cos is kept throughout: a narrow cone loses nothing (H62).
 template <typename Real>
 Vec3<Real> uniformCone(const Vec2<Real>& u, Real oneMinusCosMax) {
     const Vec2<Real> turn = sinCosTurn(u.y);

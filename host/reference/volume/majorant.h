@@ -60,7 +60,7 @@ void startCell(const Medium<Real>& medium, Real t, CellWalk<Real>& walk) {
     planeDistances(medium, walk);
 }
 
-/// t of the next plane of one axis, always from the integer cell, so that no error builds up (numerics H26).
+/// t of the next plane of one axis, always from the integer cell, so that no error builds up (H26).
 /// Infinite where the ray does not move (H27) or would leave the grid: border values extend outwards.
 /// Reference only: the shader does all three at once.
 template <typename Real>

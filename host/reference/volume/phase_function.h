@@ -10,7 +10,7 @@ namespace parhelion::reference {
 
 /// Henyey-Greenstein density per steradian, mu = dot(-wo, wi).
 ///
-/// 1 +- mu comes from the squared length of wo +- wi: nothing cancels where the peak is (numerics H5).
+/// 1 +- mu comes from the squared length of wo +- wi: nothing cancels where the peak is (H5).
 /// Source: Henyey and Greenstein 1941, "Diffuse Radiation in the Galaxy".
 template <typename Real>
 Real evalHenyeyGreenstein(Real g, const Vec3<Real>& wo, const Vec3<Real>& wi) {
@@ -26,7 +26,7 @@ struct Deflection {
     Real mu, sinTheta, pdf;
 };
 
-/// Inversion of the Henyey-Greenstein distribution, |g| < 1, u in [0, 1); g = 0 needs no branch (numerics H1-H4).
+/// Inversion of the Henyey-Greenstein distribution, |g| < 1, u in [0, 1); g = 0 needs no branch (H1-H4).
 template <typename Real>
 Deflection<Real> sampleHenyeyGreenstein(Real g, Real u) {
     const Real a = std::abs(g);
@@ -116,7 +116,7 @@ Real evalPhase(const Medium<Real>& medium, const Vec3<Real>& wo, const Vec3<Real
 }
 
 /// The deflection that u gives within the lobe of a dual function that the random word chooses; the density is that of
-/// both (numerics H8).
+/// both (H8).
 /// Reference only: within samplePhase in the shader.
 template <typename Real>
 Deflection<Real> sampleLobe(const Medium<Real>& medium, Real u, std::uint32_t choice) {
