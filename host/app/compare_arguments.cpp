@@ -6,7 +6,7 @@ namespace {
 
 constexpr double kMax = 1e300;
 
-void addLimits(CLI::App& command, CompareArguments& arguments) {
+void addLimits(Command& command, CompareArguments& arguments) {
     addNumberOption(command, "--max-mse", arguments.maxMse, 0, kMax, "fail above this mean squared error");
     addNumberOption(command, "--max-mae", arguments.maxMae, 0, kMax, "fail above this mean absolute error");
     addNumberOption(command, "--max-error", arguments.maxError, 0, kMax, "fail above this largest absolute error");
@@ -16,36 +16,32 @@ void addLimits(CLI::App& command, CompareArguments& arguments) {
                     "fail when a channel's mean(A) / mean(B) is further than this from 1");
     addNumberOption(command, "--mean-within", arguments.meanWithin, 0, kMax,
                     "fail unless the 95 % interval of every channel's mean(A) / mean(B) lies this close to 1");
-    command.add_flag("--noise-alone", arguments.requireNoiseAlone,
-                     "fail when the mean squared error is above what the variance channels add up to; less passes, as "
-                     "of renders with the same random numbers");
-    command.add_flag("--independent-noise", arguments.requireIndependentNoise,
-                     "fail when it is above or below: independent renders with unbiased variances");
-    command.add_flag("--agree", arguments.requireAgreement,
-                     "fail unless the images agree within their noise (their variance channels), or are equal");
+    command.addFlag("--noise-alone", arguments.requireNoiseAlone,
+                    "fail when the mean squared error is above what the variance channels add up to; less passes, as "
+                    "of renders with the same random numbers");
+    command.addFlag("--independent-noise", arguments.requireIndependentNoise,
+                    "fail when it is above or below: independent renders with unbiased variances");
+    command.addFlag("--agree", arguments.requireAgreement,
+                    "fail unless the images agree within their noise (their variance channels), or are equal");
 }
 
 }  // namespace
 
-CLI::App* addCompareCommand(CLI::App& program, CompareArguments& arguments) {
-    CLI::App* command = program.add_subcommand("compare", "Measure how image A differs from image B");
-    command->add_option("A", arguments.imageA, "image (.exr)")->required()->type_name("");
-    command->add_option("B", arguments.imageB, "image to measure against (.exr)")->required()->type_name("");
-    command
-        ->add_option("--error", arguments.error,
-                     "write the differences to this .exr; beside it a .png of |A - B|, 1 being the mean of B")
-        ->type_name("FILE");
-    command
-        ->add_option("--pictures", arguments.pictures,
-                     "write PREFIX_a.png, PREFIX_b.png, PREFIX_error.png (A - B, mean of the channels: red above, blue "
-                     "below; full colour at a tenth of the mean of B) and, with noise estimates, PREFIX_z.png (full "
-                     "colour at 4 deviations)")
-        ->type_name("PREFIX");
-    addNumberOption(*command, "--error-range", arguments.errorRange, 1e-30, kMax,
+Command addCompareCommand(CommandLine& program, CompareArguments& arguments) {
+    Command command = program.addCommand("compare", "Measure how image A differs from image B");
+    command.addArgument("A", arguments.imageA, "image (.exr)");
+    command.addArgument("B", arguments.imageB, "image to measure against (.exr)");
+    addTextOption(command, "--error", arguments.error, "FILE",
+                  "write the differences to this .exr; beside it a .png of |A - B|, 1 being the mean of B");
+    addTextOption(command, "--pictures", arguments.pictures, "PREFIX",
+                  "write PREFIX_a.png, PREFIX_b.png, PREFIX_error.png (A - B, mean of the channels: red above, blue "
+                  "below; full colour at a tenth of the mean of B) and, with noise estimates, PREFIX_z.png (full "
+                  "colour at 4 deviations)");
+    addNumberOption(command, "--error-range", arguments.errorRange, 1e-30, kMax,
                     "error of full colour in PREFIX_error.png");
-    addLimits(*command, arguments);
-    command->add_flag("--json", arguments.json, "print as JSON");
-    command->footer(
+    addLimits(command, arguments);
+    command.addFlag("--json", arguments.json, "print as JSON");
+    command.setFooter(
         "Examples:\n"
         "  parhelion compare cloud.exr oracle.exr\n"
         "  parhelion compare cloud.exr oracle.exr --agree --error difference.exr\n"

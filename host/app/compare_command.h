@@ -19,7 +19,7 @@ struct CompareArguments {
     bool json = false;
 };
 
-CLI::App* addCompareCommand(CLI::App& program, CompareArguments& arguments);
+Command addCompareCommand(CommandLine& program, CompareArguments& arguments);
 
 /// Prints how two images differ. Returns kExitFailed when a threshold is exceeded.
 int runCompareCommand(const CompareArguments& arguments);

@@ -34,22 +34,18 @@ std::string describe(const Volume& volume) {
 
 }  // namespace
 
-CLI::App* addConvertCommand(CLI::App& program, ConvertArguments& arguments) {
-    CLI::App* command = program.add_subcommand("convert", "Convert a volume between .vol, .grid, .vdb and .nvdb");
-    command->add_option("IN", arguments.input, "volume to read; its content tells the format")
-        ->required()
-        ->type_name("");
-    command->add_option("OUT", arguments.output, "volume to write; its extension tells the format")
-        ->required()
-        ->type_name("");
-    command->add_option("--grid", arguments.grid, "grid to read of a .vdb or .nvdb (default: density, else the first)")
-        ->type_name("NAME");
-    addChoiceOption<GridValueType, GridValueType>(*command, "--values", arguments.write.valueType,
+Command addConvertCommand(CommandLine& program, ConvertArguments& arguments) {
+    Command command = program.addCommand("convert", "Convert a volume between .vol, .grid, .vdb and .nvdb");
+    command.addArgument("IN", arguments.input, "volume to read; its content tells the format");
+    command.addArgument("OUT", arguments.output, "volume to write; its extension tells the format");
+    addTextOption(command, "--grid", arguments.grid, "NAME",
+                  "grid to read of a .vdb or .nvdb (default: density, else the first)");
+    addChoiceOption<GridValueType, GridValueType>(command, "--values", arguments.write.valueType,
                                                   {{"float32", GridValueType::kFloat32},
                                                    {"float16", GridValueType::kFloat16},
                                                    {"unorm8", GridValueType::kUnorm8}},
                                                   "how a .grid stores its values (default float32: exact)");
-    command->footer(
+    command.setFooter(
         "Examples:\n"
         "  parhelion convert bunny_cloud.vdb bunny_cloud.vol\n"
         "  parhelion convert fire.vdb smoke.nvdb --grid density");

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "app/command_line.h"
 #include "volume/volume_file.h"
 
 namespace parhelion::app {
@@ -13,7 +13,7 @@ struct ConvertArguments {
     VolumeWriteOptions write;
 };
 
-CLI::App* addConvertCommand(CLI::App& program, ConvertArguments& arguments);
+Command addConvertCommand(CommandLine& program, ConvertArguments& arguments);
 
 /// Reads a volume in one format and writes it in another.
 int runConvertCommand(const ConvertArguments& arguments);

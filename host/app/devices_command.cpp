@@ -10,10 +10,10 @@
 
 namespace parhelion::app {
 
-CLI::App* addDevicesCommand(CLI::App& program, DevicesArguments& arguments) {
-    CLI::App* command = program.add_subcommand("devices", "List the Vulkan devices that can render");
-    command->add_flag("--json", arguments.json, "print as JSON");
-    command->footer(
+Command addDevicesCommand(CommandLine& program, DevicesArguments& arguments) {
+    Command command = program.addCommand("devices", "List the Vulkan devices that can render");
+    command.addFlag("--json", arguments.json, "print as JSON");
+    command.setFooter(
         "Examples:\n"
         "  parhelion devices\n"
         "  parhelion render cloud.xml --device llvmpipe");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "app/command_line.h"
 
 namespace parhelion::app {
 
@@ -8,7 +8,7 @@ struct DevicesArguments {
     bool json = false;
 };
 
-CLI::App* addDevicesCommand(CLI::App& program, DevicesArguments& arguments);
+Command addDevicesCommand(CommandLine& program, DevicesArguments& arguments);
 
 /// Lists the Vulkan devices by the numbers that --device takes.
 int runDevicesCommand(const DevicesArguments& arguments);

@@ -12,13 +12,13 @@
 
 namespace parhelion::app {
 
-CLI::App* addInspectCommand(CLI::App& program, InspectArguments& arguments) {
-    CLI::App* command =
-        program.add_subcommand("inspect", "Show what a scene holds, what it costs and which effects it calls for");
-    addSceneOptions(*command, arguments.scene);
-    command->add_flag("--bake-error", arguments.bakeError, kBakeErrorHelp);
-    command->add_flag("--json", arguments.json, "print as JSON");
-    command->footer(
+Command addInspectCommand(CommandLine& program, InspectArguments& arguments) {
+    Command command =
+        program.addCommand("inspect", "Show what a scene holds, what it costs and which effects it calls for");
+    addSceneOptions(command, arguments.scene);
+    command.addFlag("--bake-error", arguments.bakeError, kBakeErrorHelp);
+    command.addFlag("--json", arguments.json, "print as JSON");
+    command.setFooter(
         "Examples:\n"
         "  parhelion inspect scenes/cloud_box.xml\n"
         "  parhelion inspect cloud.xml -D volume=dense.vdb --json");

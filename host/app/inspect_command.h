@@ -9,7 +9,7 @@ struct InspectArguments {
     bool json = false, bakeError = false;
 };
 
-CLI::App* addInspectCommand(CLI::App& program, InspectArguments& arguments);
+Command addInspectCommand(CommandLine& program, InspectArguments& arguments);
 
 /// Prints what a scene holds, what each array costs, and which effects are simulated, with the reason.
 int runInspectCommand(const InspectArguments& arguments);

@@ -2,20 +2,14 @@
 
 namespace parhelion::app {
 
-void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
-    command.add_option("SCENE", arguments.file, "scene file (Mitsuba 3 XML, or Nori XML)")->required()->type_name("");
-    command
-        .add_option_function<std::vector<std::string>>(
-            "-D",
-            [&arguments](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) {
-                    auto [name, value] = parseDefine("-D", text);
-                    arguments.defines.insert_or_assign(std::move(name), std::move(value));
-                }
-            },
-            "value of a $name in the scene, instead of its <default>; may be repeated")
-        ->type_name("name=value")
-        ->allow_extra_args(false);
+void addSceneOptions(Command& command, SceneArguments& arguments) {
+    command.addArgument("SCENE", arguments.file, "scene file (Mitsuba 3 XML, or Nori XML)");
+    command.addRepeatedOption("-D", "name=value",
+                              "value of a $name in the scene, instead of its <default>; may be repeated",
+                              [&arguments](const std::string& text) {
+                                  auto [name, value] = parseDefine("-D", text);
+                                  arguments.defines.insert_or_assign(std::move(name), std::move(value));
+                              });
     addParsedOption(command, "--size", arguments.size, "WxH", "film size in pixels, instead of the scene's", parseSize);
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "app/command_line.h"
 #include "app/option_values.h"
 #include "scene/scene_description.h"
 
@@ -13,43 +13,46 @@ namespace parhelion::app {
 
 /// Declares an option that takes one text, which `parse(name, text)` turns into `target`.
 template <typename Target, typename Parse>
-CLI::Option* addParsedOption(CLI::App& command, const std::string& name, Target& target, const std::string& placeholder,
-                             const std::string& help, Parse parse) {
-    return command
-        .add_option_function<std::string>(
-            name, [&target, name, parse](const std::string& text) { target = parse(name, text); }, help)
-        ->type_name(placeholder);
+void addParsedOption(Command& command, const std::string& name, Target& target, const std::string& placeholder,
+                     const std::string& help, Parse parse) {
+    command.addOption(name, placeholder, help,
+                      [&target, name, parse](const std::string& text) { target = parse(name, text); });
+}
+
+/// Declares an option whose text is kept as it is.
+inline void addTextOption(Command& command, const std::string& name, std::string& target,
+                          const std::string& placeholder, const std::string& help) {
+    command.addOption(name, placeholder, help, [&target](const std::string& text) { target = text; });
 }
 
 template <typename Target>
-CLI::Option* addIntegerOption(CLI::App& command, const std::string& name, Target& target, std::int64_t minimum,
-                              std::int64_t maximum, const std::string& help) {
-    return addParsedOption(command, name, target, "N", help, [=](const std::string& option, const std::string& text) {
+void addIntegerOption(Command& command, const std::string& name, Target& target, std::int64_t minimum,
+                      std::int64_t maximum, const std::string& help) {
+    addParsedOption(command, name, target, "N", help, [=](const std::string& option, const std::string& text) {
         return parseInteger(option, text, minimum, maximum);
     });
 }
 
 template <typename Target>
-CLI::Option* addNumberOption(CLI::App& command, const std::string& name, Target& target, double minimum, double maximum,
-                             const std::string& help) {
-    return addParsedOption(command, name, target, "X", help, [=](const std::string& option, const std::string& text) {
+void addNumberOption(Command& command, const std::string& name, Target& target, double minimum, double maximum,
+                     const std::string& help) {
+    addParsedOption(command, name, target, "X", help, [=](const std::string& option, const std::string& text) {
         return parseNumber(option, text, minimum, maximum);
     });
 }
 
 /// Declares an option that takes one of a few words, each standing for a value.
 template <typename Target, typename Value>
-CLI::Option* addChoiceOption(CLI::App& command, const std::string& name, Target& target,
-                             const std::map<std::string, Value>& choices, const std::string& help) {
+void addChoiceOption(Command& command, const std::string& name, Target& target,
+                     const std::map<std::string, Value>& choices, const std::string& help) {
     std::string words;
     for (const auto& [word, value] : choices) words += (words.empty() ? "" : "|") + word;
-    return addParsedOption(command, name, target, words, help,
-                           [choices, words](const std::string& option, const std::string& text) {
-                               const auto found = choices.find(text);
-                               if (found == choices.end())
-                                   throw InputError(option + ": expected " + words + "; got " + text);
-                               return found->second;
-                           });
+    addParsedOption(command, name, target, words, help,
+                    [choices, words](const std::string& option, const std::string& text) {
+                        const auto found = choices.find(text);
+                        if (found == choices.end()) throw InputError(option + ": expected " + words + "; got " + text);
+                        return found->second;
+                    });
 }
 
 /// What every command that reads a scene takes.
@@ -60,7 +63,7 @@ struct SceneArguments {
 };
 
 /// Declares SCENE, -D and --size.
-void addSceneOptions(CLI::App& command, SceneArguments& arguments);
+void addSceneOptions(Command& command, SceneArguments& arguments);
 
 /// Reads the scene that the arguments name.
 SceneDescription readScene(const SceneArguments& arguments);

@@ -16,12 +16,10 @@ Exit codes: 0 done, 1 samples dropped or majorants violated, 2 bad input, 3 devi
 constexpr std::int64_t kMaxSamples = std::int64_t{1} << 40;
 constexpr std::int64_t kMaxUint = 0xffffffff;
 
-void addImageOptions(CLI::App& command, RenderArguments& arguments) {
-    command
-        .add_option("-o,--output", arguments.output,
-                    "image to write (.exr; a .png is written beside it); "
-                    "default: the scene's name, in the current folder")
-        ->type_name("FILE");
+void addImageOptions(Command& command, RenderArguments& arguments) {
+    addTextOption(command, "-o,--output", arguments.output, "FILE",
+                  "image to write (.exr; a .png is written beside it); "
+                  "default: the scene's name, in the current folder");
     addIntegerOption(command, "--spp", arguments.sampleCount, 1, kMaxSamples,
                      "samples per pixel, instead of the scene's");
     addIntegerOption(command, "--seed", arguments.seed, 0, kMaxUint,
@@ -36,14 +34,14 @@ void addImageOptions(CLI::App& command, RenderArguments& arguments) {
     addNumberOption(command, "--exposure", arguments.exposure, -64, 64, "stops; brightens the PNG only (default 0)");
 }
 
-void addDeviceOptions(CLI::App& command, RenderArguments& arguments) {
+void addDeviceOptions(Command& command, RenderArguments& arguments) {
     std::map<std::string, Backend> backends;
     for (const Backend backend : {Backend::Vulkan, Backend::Reference, Backend::ReferenceDouble})
         backends.emplace(nameOf(backend), backend);
     addChoiceOption<Backend, Backend>(command, "--backend", arguments.backend, backends,
                                       "what renders (default vulkan); the reference is plain C++ on the CPU");
-    command.add_option("--device", arguments.device, "part of a device's name, or its number: see parhelion devices")
-        ->type_name("NAME");
+    addTextOption(command, "--device", arguments.device, "NAME",
+                  "part of a device's name, or its number: see parhelion devices");
     addChoiceOption<std::optional<unsigned>, unsigned>(
         command, "--vector-bits", arguments.vectorBits, {{"0", 0}, {"128", 128}, {"256", 256}, {"512", 512}},
         "vector width of the software device (default 0: the widest, 256 with meshes)");
@@ -52,7 +50,7 @@ void addDeviceOptions(CLI::App& command, RenderArguments& arguments) {
         "simulate the scene's effects, or keep the code of all (same image, slower)");
 }
 
-void addQualityOptions(CLI::App& command, RenderArguments& arguments) {
+void addQualityOptions(Command& command, RenderArguments& arguments) {
     addChoiceOption<bool, bool>(
         command, "--nee", arguments.sampleEveryLight, {{"auto", false}, {"all", true}},
         "aim rays at the lights that gain from it (default auto), or at the constant environment too");
@@ -84,18 +82,18 @@ const char* nameOf(Backend backend) {
     return "";
 }
 
-CLI::App* addRenderCommand(CLI::App& program, RenderArguments& arguments) {
-    CLI::App* command = program.add_subcommand("render", "Render a scene to an EXR and a PNG");
-    addSceneOptions(*command, arguments.scene);
-    addImageOptions(*command, arguments);
-    addDeviceOptions(*command, arguments);
-    addQualityOptions(*command, arguments);
-    command->add_flag("--bake-error", arguments.bakeError, kBakeErrorHelp);
-    command->add_flag("--allow-anomalies", arguments.allowAnomalies,
-                      "exit with 0 although samples were dropped as not finite or majorants violated");
-    command->add_flag("--json", arguments.json, "print the report as JSON");
-    command->add_flag("--quiet", arguments.quiet, "print errors only");
-    command->footer(kExamples);
+Command addRenderCommand(CommandLine& program, RenderArguments& arguments) {
+    Command command = program.addCommand("render", "Render a scene to an EXR and a PNG");
+    addSceneOptions(command, arguments.scene);
+    addImageOptions(command, arguments);
+    addDeviceOptions(command, arguments);
+    addQualityOptions(command, arguments);
+    command.addFlag("--bake-error", arguments.bakeError, kBakeErrorHelp);
+    command.addFlag("--allow-anomalies", arguments.allowAnomalies,
+                    "exit with 0 although samples were dropped as not finite or majorants violated");
+    command.addFlag("--json", arguments.json, "print the report as JSON");
+    command.addFlag("--quiet", arguments.quiet, "print errors only");
+    command.setFooter(kExamples);
     return command;
 }
 

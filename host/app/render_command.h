@@ -36,7 +36,7 @@ struct RenderArguments {
     bool allowAnomalies = false, bakeError = false, json = false, quiet = false;
 };
 
-CLI::App* addRenderCommand(CLI::App& program, RenderArguments& arguments);
+Command addRenderCommand(CommandLine& program, RenderArguments& arguments);
 
 /// Renders and writes an EXR and a PNG. Returns the exit code.
 int runRenderCommand(const RenderArguments& arguments);
