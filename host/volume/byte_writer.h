@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -28,6 +29,10 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         write(&value, sizeof(T));
     }
+
+    /// Where the next byte goes; seek() overwrites from there.
+    std::uint64_t position() { return static_cast<std::uint64_t>(stream_.tellp()); }
+    void seek(std::uint64_t position) { stream_.seekp(static_cast<std::streamoff>(position)); }
 
     /// @throws RuntimeFailure if anything since the start could not be written.
     void close() {
