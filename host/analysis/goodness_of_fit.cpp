@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -98,9 +97,7 @@ ChiSquare chiSquareTest(std::span<const double> observed, std::span<const double
     ChiSquare result;
     for (const Cell& cell : cells) result.statistic += cell.contribution();
     result.degreesOfFreedom = static_cast<int>(possible) - 1;
-    const boost::math::chi_squared distribution(result.degreesOfFreedom);
-    result.pValue =
-        std::isinf(result.statistic) ? 0.0 : boost::math::cdf(boost::math::complement(distribution, result.statistic));
+    result.pValue = chiSquareTail(result.statistic, result.degreesOfFreedom);
     result.table = tableOf(cells) + fmt::format("chi-square {:.6g}, {} degrees of freedom, p = {:.4g}\n",
                                                 result.statistic, result.degreesOfFreedom, result.pValue);
     return result;

@@ -25,6 +25,11 @@ double studentQuantile(double probability, double degreesOfFreedom) {
     return math::quantile(math::students_t(degreesOfFreedom), probability);
 }
 
+double chiSquareTail(double statistic, int degreesOfFreedom) {
+    if (std::isinf(statistic)) return 0;
+    return math::cdf(math::complement(math::chi_squared(degreesOfFreedom), statistic));
+}
+
 double twoSidedThreshold(double significance) {
     return math::quantile(math::complement(math::normal(), significance / 2));
 }

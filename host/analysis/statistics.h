@@ -14,6 +14,9 @@ double normalQuantile(double probability);
 /// x with P(T <= x) = probability, T Student with degreesOfFreedom > 0 (need not be an integer; may be infinite).
 double studentQuantile(double probability, double degreesOfFreedom);
 
+/// P(X > statistic) for X chi-square distributed with degreesOfFreedom > 0; statistic >= 0, may be infinite.
+double chiSquareTail(double statistic, int degreesOfFreedom);
+
 /// |z| above which a two-sided normal test rejects at significance in (0, 1): 4.89 at 1e-6.
 double twoSidedThreshold(double significance);
 
