@@ -1,5 +1,9 @@
-#include <embree3/rtcore.h>
 #include <gtest/gtest.h>
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>  // Debian 13
+#else
+#include <embree3/rtcore.h>  // Debian 12
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +42,6 @@ public:
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     double closestHit(const Ray& ray) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
         RTCRayHit query{};
         query.ray.org_x = float(ray.origin.x), query.ray.org_y = float(ray.origin.y),
         query.ray.org_z = float(ray.origin.z);
@@ -48,11 +50,21 @@ public:
         query.ray.tfar = std::numeric_limits<float>::infinity();
         query.ray.mask = ~0u;
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene_, &context, &query);
+        intersect(query);
         return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kMiss : double(query.ray.tfar);
     }
 
 private:
+    void intersect(RTCRayHit& query) const {
+#if RTC_VERSION_MAJOR >= 4
+        rtcIntersect1(scene_, &query);
+#else
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcIntersect1(scene_, &context, &query);
+#endif
+    }
+
     RTCDevice device_;
     RTCScene scene_;
 };
