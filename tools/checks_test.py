@@ -83,7 +83,8 @@ class Checks(unittest.TestCase):
         self.write("tests/HARD_CASES.md", HARD_CASES)
         self.write("scenes/fog.xml", "<!-- H1 -->\n")
         self.write("tools/make.cpp", "int main() {}\n")
-        self.write(".clang-format", "BasedOnStyle: Google\n")
+        version = (TOOLS.parent / ".clang-format").read_text().split("\n")[0]
+        self.write(".clang-format", version + "\nBasedOnStyle: Google\n")
 
     def write(self, name, text):
         file = self.root / name
@@ -146,7 +147,7 @@ class Checks(unittest.TestCase):
     def run_style(self):
         result = subprocess.run(["bash", TOOLS / "check_style.sh", self.root], capture_output=True, text=True)
         if result.returncode == 77:
-            self.skipTest("clang-format is not installed")
+            self.skipTest(result.stdout)
         return result
 
     def test_style_finds_what_clang_format_would_change(self):
@@ -160,6 +161,13 @@ class Checks(unittest.TestCase):
         result = self.run_style()
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("tools/make.cpp:1", result.stderr)
+
+    def test_style_is_skipped_where_the_formatter_has_another_version(self):
+        self.write(".clang-format", "# clang-format 1\nBasedOnStyle: Google\n")
+        self.write("tools/make.cpp", "int  main( ) {}\n")
+        result = subprocess.run(["bash", TOOLS / "check_style.sh", self.root], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 77, result.stderr)
+        self.assertIn("clang-format 1,", result.stdout)
 
     def test_style_without_a_folder_is_no_pass(self):
         shutil.rmtree(self.root / "tests")
@@ -212,6 +220,27 @@ class Checks(unittest.TestCase):
         self.write("shaders/kernels/path.comp", "\n" * 41)
         self.write("host/base/long.cpp", "\n" * 301)
         self.assert_finds("check_sizes.py", "sky.glsl: 151", "path.comp: 41", "long.cpp: 301")
+
+    def test_programs_are_those_that_hold_the_chosen_tests(self):
+        def programs(*options):
+            command = [sys.executable, TOOLS / "programs_of.py", *options]
+            return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+        self.assertEqual(programs("-R", "^VdbWriter"), ["parhelion", "unit_tests"])
+        self.assertEqual(programs("--tests-regex=OnBothBackEnds/Slabs.Absorb"), ["parhelion", "statistical_tests"])
+        self.assertEqual(programs("-L", "parity"), ["parhelion", "parity_tests"])
+        self.assertEqual(programs("-RStructure"), ["parhelion"])
+        self.assertEqual(programs("--label-exclude", "nightly", "-R", "SlabTable"), [])
+        self.assertEqual(programs("--label-exclude", "nightly"), [])  # everything
+
+    def test_dearest_tests_come_with_what_they_prove(self):
+        times = self.root / "times.xml"
+        times.write_text("""<testsuite><testcase name="Validation.PassesWhatIsRight" time="2.5"/>
+            <testcase name="OnBothBackEnds/Slabs.AbsorbByBeersLaw/Vulkan" time="3.25"/></testsuite>""")
+        command = [sys.executable, TOOLS / "dearest_tests.py", times]
+        lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip().split("\n")
+        self.assertIn("2 tests, which took 6 s", lines[0])
+        self.assertIn("3.2 s  OnBothBackEnds/Slabs.AbsorbByBeersLaw/Vulkan: absorb by beers law", lines[1])
+        self.assertIn("passes what is right", lines[2])
 
     def test_functions_are_told_from_what_looks_like_them(self):
         text = """
