@@ -1,12 +1,20 @@
 #!/usr/bin/env bash
-# tools/test --bare [OPTIONS of ctest]: proves that nothing but a bare Debian 12 is needed.
+# tools/test --bare [bookworm|trixie] [OPTIONS of ctest]: proves that nothing but a bare Debian 12 (bookworm) or 13
+# (trixie) is needed; without a name: the release that this machine runs, or else bookworm.
 #
 # Makes one with debootstrap in a temporary folder, copies the checkout into it (and ../shared, when it is
 # there), runs tools/render and tools/test in it, says how long each took, and leaves the picture in the
-# current folder as bare_final_cloud.png. Needs root. The packages come from where this machine's apt gets them.
+# current folder as bare_final_cloud.png. Needs root. The packages come from where this machine's apt gets those of
+# its own release.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+name=
+case ${1-} in
+    bookworm | trixie) name=$1; shift ;;
+    -* | '') ;;
+    *) echo "--bare takes bookworm or trixie; got $1" >&2; exit 2 ;;
+esac
 [ "$(id -u)" -eq 0 ] || { echo "--bare needs root: it makes a chroot" >&2; exit 3; }
 command -v debootstrap >/dev/null || DEBIAN_FRONTEND=noninteractive apt-get install -qq --yes --no-install-recommends debootstrap
 
@@ -15,17 +23,31 @@ chmod 755 "$bare" # apt downloads as a user of its own
 # /proc is mounted in a namespace of its own (see inBare) and gone by now; one file system all the same.
 trap 'rm -rf --one-file-system "$bare"' EXIT
 
-# The file of apt's sources that names Debian bookworm, and its first address.
-findSources() {
+# chooseRelease [NAME]: sets release.
+chooseRelease() {
+    release=$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)
+    [ "$release" = trixie ] || release=bookworm
+    [ -z "${1-}" ] || release=$1
+}
+
+# The file of apt's sources that names the given Debian release, and its first address.
+findSourcesOf() {
     local file
     for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list; do
         [ -f "$file" ] || continue
-        mirror=$(awk '/^URIs:/ { uri = $2 }
-                      /^Suites:/ { for (i = 2; i <= NF; ++i) if ($i == "bookworm") { print uri; exit } }
-                      $1 == "deb" { for (i = 2; i < NF; ++i) if ($i ~ /:\// && $(i + 1) == "bookworm") { print $i; exit } }' "$file")
-        [ -n "$mirror" ] && { sources=$file; return; }
+        mirror=$(awk -v release="$1" '
+            /^URIs:/ { uri = $2 }
+            /^Suites:/ { for (i = 2; i <= NF; ++i) if ($i == release) { print uri; exit } }
+            $1 == "deb" { for (i = 2; i < NF; ++i) if ($i ~ /:\// && $(i + 1) == release) { print $i; exit } }' "$file")
+        [ -n "$mirror" ] && { sources=$file; sourcesRelease=$1; return; }
     done
-    echo "no source of Debian bookworm in /etc/apt" >&2
+    return 1
+}
+
+# The mirrors of one release have the other too.
+findSources() {
+    findSourcesOf "$release" || findSourcesOf bookworm || findSourcesOf trixie && return
+    echo "no source of Debian bookworm or trixie in /etc/apt" >&2
     exit 3
 }
 
@@ -33,7 +55,7 @@ findSources() {
 copyAptConfiguration() {
     local file
     : >"$bare/etc/apt/sources.list"
-    cp "$sources" "$bare/etc/apt/${sources#/etc/apt/}"
+    sed "s/$sourcesRelease/$release/g" "$sources" >"$bare/etc/apt/${sources#/etc/apt/}"
     { grep -lrE 'Acquire|Proxy' /etc/apt/apt.conf.d || true; } | while read -r file; do cp "$file" "$bare/etc/apt/apt.conf.d/"; done
     [ -d /etc/apt/auth.conf.d ] && cp -a /etc/apt/auth.conf.d/. "$bare/etc/apt/auth.conf.d/"
     {
@@ -78,8 +100,9 @@ timed() {
 
 times=()
 status=0
+chooseRelease "$name"
 findSources
-timed "bare Debian 12" debootstrap --variant=minbase bookworm "$bare" "$mirror" >&2
+timed "bare Debian $release" debootstrap --variant=minbase "$release" "$bare" "$mirror" >&2
 copyAptConfiguration
 copyCheckout
 timed "tools/render (installs, builds, renders)" inBare bash -c 'cd /src && bash parhelion/tools/render' || status=$?

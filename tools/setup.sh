@@ -1,6 +1,9 @@
 # shellcheck shell=bash
 # Sourced by tools/render and tools/test: installs what is missing, configures, builds. Prints to stderr only.
-# Works in a bare Debian 12, in a chroot, with or without /proc; needs no git and no sudo.
+# Works in a bare Debian 12 or 13, in a chroot, with or without /proc; needs no git and no sudo.
+
+# ccache may take a precompiled header for what it was made from.
+export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
