@@ -6,6 +6,7 @@
 
 #include "render/specialise.h"
 #include "support/effect_scenes.h"
+#include "support/paths.h"
 #include "support/process_memory.h"
 #include "support/render_scene.h"
 #include "support/run_program.h"
@@ -44,7 +45,7 @@ TEST(DriverMemory, SubmissionsOfEverySceneNeedNoNewCode) {
 /// Renders for a minute and expects that the last fifty seconds take no more than 2 MiB, and no code.
 void expectFlatMinute(const std::string& scene) {
     const TemporaryFolder folder;
-    ChildProgram program(PARHELION_PROGRAM,
+    ChildProgram program(test::programFile(),
                          {"render", (sceneFolder() / scene).string(), "-o", "out.exr", "--size", "64x64", "--spp",
                           "1000000000", "--quiet"},
                          folder.path());

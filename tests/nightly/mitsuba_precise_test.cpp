@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "support/mitsuba_reference.h"
+#include "support/paths.h"
 #include "support/shared_data.h"
 
 // tests/statistical/mitsuba_agreement_test.cpp with more samples, on both back ends.
@@ -17,7 +18,7 @@ TEST_P(MitsubaPrecise, ImageMeanTilesAndPixelsAreTheSame) {
     if (sharedFile("benchmark").empty() || sharedFile("data/mitsuba").empty())
         GTEST_SKIP() << "../shared/benchmark or ../shared/data/mitsuba is missing";
     const auto& [reference, backend] = GetParam();
-    expectAgreement(reference, PARHELION_ROOT, backend);
+    expectAgreement(reference, test::projectFolder(), backend);
 }
 
 INSTANTIATE_TEST_SUITE_P(

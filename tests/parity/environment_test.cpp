@@ -6,6 +6,7 @@
 #include "support/environment_table.h"
 #include "support/hand_scene.h"
 #include "support/parity_report.h"
+#include "support/paths.h"
 #include "support/scene_probe.h"
 #include "support/stress.h"
 
@@ -186,7 +187,7 @@ TEST(EnvironmentParity, IsContinuousAcrossItsSeam) {
 }
 
 TEST(EnvironmentAgainstMitsuba, RadianceIsTheSame) {
-    test::expectTableAgrees(std::filesystem::path(PARHELION_ROOT) / "tests/references/environment_maps.csv", {},
+    test::expectTableAgrees(std::filesystem::path(test::projectFolder()) / "tests/references/environment_maps.csv", {},
                             kShader, kAt);
 }
 

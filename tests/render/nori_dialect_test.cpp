@@ -3,6 +3,7 @@
 
 #include "reference/reference_renderer.h"
 #include "support/nori_text.h"
+#include "support/paths.h"
 #include "support/render_scene.h"
 
 namespace parhelion::test {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr glm::uvec2 kSize{12, 10};
 
-const std::string kGrid = std::string(PARHELION_ROOT) + "/scenes/cumulus.grid";
+const std::string kGrid = test::projectFolder() + "/scenes/cumulus.grid";
 
 std::string inNori() {
     return R"(<scene>

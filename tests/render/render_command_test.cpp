@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "image/image.h"
+#include "support/paths.h"
 #include "support/run_program.h"
 #include "support/scene_text.h"
 #include "volume/volume_file.h"
@@ -20,7 +21,7 @@ protected:
 
     /// Runs the program, which must succeed.
     ProgramResult run(const std::vector<std::string>& arguments) {
-        const ProgramResult result = runProgram(PARHELION_PROGRAM, arguments, folder_.path());
+        const ProgramResult result = runProgram(test::programFile(), arguments, folder_.path());
         EXPECT_EQ(result.exitCode, 0) << result.error;
         return result;
     }
@@ -148,7 +149,7 @@ TEST_F(RenderCommand, CompareJudgesByTheLimitsGiven) {
     for (const char* name : {"pair_a.png", "pair_b.png", "pair_error.png", "pair_z.png"})
         EXPECT_TRUE(folder_.names().contains(name)) << name;
     const auto exitCode = [&](double limit) {
-        return runProgram(PARHELION_PROGRAM, {"compare", "a.exr", "b.exr", "--max-mse", std::to_string(limit)},
+        return runProgram(test::programFile(), {"compare", "a.exr", "b.exr", "--max-mse", std::to_string(limit)},
                           folder_.path())
             .exitCode;
     };
@@ -166,7 +167,7 @@ TEST_F(RenderCommand, CompareTellsNoiseFromBias) {
          {std::vector<std::string>{"--noise-alone"}, {"--mean-within", "0.5"}}) {
         std::vector<std::string> arguments{"compare", "1.exr", "black.exr"};
         arguments.insert(arguments.end(), limit.begin(), limit.end());
-        EXPECT_EQ(runProgram(PARHELION_PROGRAM, arguments, folder_.path()).exitCode, 1) << limit.front();
+        EXPECT_EQ(runProgram(test::programFile(), arguments, folder_.path()).exitCode, 1) << limit.front();
     }
 }
 
@@ -175,7 +176,7 @@ TEST_F(RenderCommand, CompareKnowsIdenticalAndPairedImages) {
     render("a.exr", {"--sampler", "independent"});
     render("twin.exr", {"--sampler", "independent", "--backend", "reference-double"});
     const auto exitCode = [&](const std::string& other, const std::string& limit) {
-        return runProgram(PARHELION_PROGRAM, {"compare", "a.exr", other, limit}, folder_.path()).exitCode;
+        return runProgram(test::programFile(), {"compare", "a.exr", other, limit}, folder_.path()).exitCode;
     };
     EXPECT_EQ(run({"compare", "a.exr", "a.exr"}).output.rfind("identical: ", 0), 0u);
     EXPECT_EQ(run({"compare", "a.exr", "a.exr"}).output.find("NOISE"), std::string::npos);

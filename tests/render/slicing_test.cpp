@@ -6,6 +6,7 @@
 #include "image/image.h"
 #include "render/renderer.h"
 #include "support/gpu_fixture.h"
+#include "support/paths.h"
 #include "support/render_scene.h"
 #include "support/run_program.h"
 
@@ -146,7 +147,7 @@ TEST(Slicing, VectorWidthsChangeNoBit) {
     for (const std::string bits : {"256", "512"}) {
         const std::string scene = sceneFolder() / "cloud_box.xml", file = bits + ".exr";
         const ProgramResult result =
-            runProgram(PARHELION_PROGRAM,
+            runProgram(test::programFile(),
                        {"render", scene, "-o", file, "--size", "21x18", "--spp", "2", "--vector-bits", bits, "--quiet"},
                        folder.path());
         ASSERT_EQ(result.exitCode, 0) << result.error;

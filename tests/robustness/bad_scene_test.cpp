@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "support/paths.h"
 #include "support/run_program.h"
 #include "support/scene_text.h"
 
@@ -87,7 +88,7 @@ TEST_P(BadSceneInput, IsRefusedWithItsPlaceAndWritesNothing) {
     const TemporaryFolder folder;
     const std::string text = bad.scene.text();
     folder.write("scene.xml", text);
-    const ProgramResult result = runProgram(PARHELION_PROGRAM, {"render", "scene.xml"}, folder.path());
+    const ProgramResult result = runProgram(test::programFile(), {"render", "scene.xml"}, folder.path());
     EXPECT_EQ(result.exitCode, 2) << result.error;
     EXPECT_EQ(result.output, "");
     // Where a document stops making sense is the parser's to say; elsewhere the line is the culprit's.
@@ -106,13 +107,13 @@ TEST(GoodSceneInput, IsAccepted) {
     // The control: what every bad scene was made from.
     const TemporaryFolder folder;
     folder.write("scene.xml", SceneText{}.text());
-    const ProgramResult result = runProgram(PARHELION_PROGRAM, {"inspect", "scene.xml"}, folder.path());
+    const ProgramResult result = runProgram(test::programFile(), {"inspect", "scene.xml"}, folder.path());
     EXPECT_EQ(result.exitCode, 0) << result.error;
 }
 
 TEST(BadSceneFile, MissingIsRefused) {
     const TemporaryFolder folder;
-    const ProgramResult result = runProgram(PARHELION_PROGRAM, {"render", "nowhere.xml"}, folder.path());
+    const ProgramResult result = runProgram(test::programFile(), {"render", "nowhere.xml"}, folder.path());
     EXPECT_EQ(result.exitCode, 2) << result.error;
     EXPECT_EQ(result.error.rfind("parhelion: error: nowhere.xml", 0), 0u) << result.error;
     EXPECT_TRUE(folder.names().empty());
@@ -124,7 +125,7 @@ TEST(BadSceneFile, EmptyFolderAndBinaryAreRefused) {
     folder.write("empty.xml", "");
     folder.write("binary.xml", std::string("\0\xff\xfe<scene\x01", 11));
     for (const std::string name : {"folder.xml", "empty.xml", "binary.xml"}) {
-        const ProgramResult result = runProgram(PARHELION_PROGRAM, {"render", name}, folder.path());
+        const ProgramResult result = runProgram(test::programFile(), {"render", name}, folder.path());
         EXPECT_EQ(result.exitCode, 2) << name << ": " << result.error;
         EXPECT_EQ(result.error.rfind("parhelion: error: " + name, 0), 0u) << result.error;
     }
@@ -136,7 +137,7 @@ TEST(BadSceneFile, CycleOfTwoIsRefusedInTheFileThatClosesIt) {
     scene.start = "<include filename=\"other.xml\"/>";
     folder.write("scene.xml", scene.text());
     folder.write("other.xml", "<scene version=\"3.0.0\">\n<include filename=\"scene.xml\"/>\n</scene>");
-    const ProgramResult result = runProgram(PARHELION_PROGRAM, {"render", "scene.xml"}, folder.path());
+    const ProgramResult result = runProgram(test::programFile(), {"render", "scene.xml"}, folder.path());
     EXPECT_EQ(result.exitCode, 2) << result.error;
     EXPECT_NE(result.error.find("other.xml:2:"), std::string::npos) << result.error;
 }

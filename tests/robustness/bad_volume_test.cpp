@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "support/paths.h"
 #include "support/run_program.h"
 #include "support/scene_text.h"
 #include "volume/volume_file.h"
@@ -49,7 +50,7 @@ ProgramResult renderVolume(const TemporaryFolder& folder, const std::string& fil
     SceneText scene;
     scene.medium = gridMedium(file);
     folder.write("scene.xml", scene.text());
-    return runProgram(PARHELION_PROGRAM, {"render", "scene.xml"}, folder.path());
+    return runProgram(test::programFile(), {"render", "scene.xml"}, folder.path());
 }
 
 void expectRefused(const TemporaryFolder& folder, const std::string& file, const std::string& mentions) {
@@ -88,7 +89,7 @@ TEST_P(VolumeFormat, ReadsWhatItWrote) {
     SceneText scene;
     scene.medium = gridMedium(file);
     folder.write("scene.xml", scene.text());
-    const ProgramResult result = runProgram(PARHELION_PROGRAM, {"inspect", "scene.xml"}, folder.path());
+    const ProgramResult result = runProgram(test::programFile(), {"inspect", "scene.xml"}, folder.path());
     EXPECT_EQ(result.exitCode, 0) << result.error;
 }
 
@@ -121,7 +122,7 @@ TEST_P(VolumeFormat, DamagedNeverCrashes) {
         SceneText scene;
         scene.medium = gridMedium(file);
         folder.write("scene.xml", scene.text());
-        const ProgramResult result = runProgram(PARHELION_PROGRAM, {"inspect", "scene.xml"}, folder.path());
+        const ProgramResult result = runProgram(test::programFile(), {"inspect", "scene.xml"}, folder.path());
         EXPECT_TRUE(result.exitCode == 0 || result.exitCode == 2) << result.exitCode << "\n" << result.error;
         EXPECT_LT(result.peakMemoryKiB, kPeakMemoryKiB);
     }

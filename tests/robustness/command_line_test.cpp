@@ -3,6 +3,7 @@
 
 #include <ostream>
 
+#include "support/paths.h"
 #include "support/run_program.h"
 #include "support/scene_text.h"
 
@@ -101,7 +102,7 @@ TEST_P(CommandLine, RefusesBadUsage) {
     for (const char* link : {"link.exr", "view.png"})
         std::filesystem::create_symlink("scene.xml", folder.path() / link);
     const std::set<std::string> before = folder.names();
-    const ProgramResult result = runProgram(PARHELION_PROGRAM, GetParam().arguments, folder.path());
+    const ProgramResult result = runProgram(test::programFile(), GetParam().arguments, folder.path());
     EXPECT_EQ(result.exitCode, 2) << result.error;
     EXPECT_EQ(result.error.rfind("parhelion: error: ", 0), 0u) << result.error;
     EXPECT_NE(result.error.find(GetParam().message), std::string::npos) << result.error;
@@ -118,7 +119,7 @@ TEST(CommandLineHelp, ShowsExamplesForEveryCommand) {
     for (const std::string command : {"", "render", "inspect", "compare", "convert", "devices"}) {
         Arguments arguments{"--help"};
         if (!command.empty()) arguments.insert(arguments.begin(), command);
-        const ProgramResult result = runProgram(PARHELION_PROGRAM, arguments, folder.path());
+        const ProgramResult result = runProgram(test::programFile(), arguments, folder.path());
         EXPECT_EQ(result.exitCode, 0) << command << result.error;
         EXPECT_NE(result.output.find("Examples:\n  parhelion " + command), std::string::npos) << result.output;
         EXPECT_EQ(result.error, "");
@@ -127,7 +128,7 @@ TEST(CommandLineHelp, ShowsExamplesForEveryCommand) {
 
 TEST(CommandLineVersion, IsOneLine) {
     const TemporaryFolder folder;
-    const ProgramResult result = runProgram(PARHELION_PROGRAM, {"--version"}, folder.path());
+    const ProgramResult result = runProgram(test::programFile(), {"--version"}, folder.path());
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_EQ(result.output.rfind("parhelion ", 0), 0u) << result.output;
     EXPECT_EQ(result.output.find('\n'), result.output.size() - 1) << result.output;
@@ -138,7 +139,7 @@ TEST(CommandLineOutput, IsCheckedBeforeTheSceneIsRendered) {
     const TemporaryFolder folder;
     folder.write("scene.xml", SceneText{}.text());
     ChildProgram program(
-        PARHELION_PROGRAM,
+        test::programFile(),
         {"render", "scene.xml", "--backend", "reference", "--spp", "1000000000000", "-o", "no/out.exr"}, folder.path());
     EXPECT_EQ(program.wait(std::chrono::seconds(20)).exitCode, 2);
 }

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "image/image.h"
+#include "support/paths.h"
 #include "support/run_program.h"
 #include "support/scene_text.h"
 
@@ -50,7 +51,7 @@ TEST_P(Interrupt, WritesTheImageSoFar) {
         SCOPED_TRACE(signal);
         const TemporaryFolder folder;
         folder.write("scene.xml", SceneText{}.text());
-        ChildProgram program(PARHELION_PROGRAM,
+        ChildProgram program(test::programFile(),
                              {"render", "scene.xml", "--spp", kEndless, "-o", "out.exr", "--backend", GetParam()},
                              folder.path());
         ASSERT_TRUE(program.waitForError("rendering")) << program.wait().error;
@@ -70,7 +71,7 @@ TEST(SecondInterrupt, EndsAtOnceAndWritesNothing) {
     const TemporaryFolder folder;
     folder.write("scene.xml", slowScene().text());
     ChildProgram program(
-        PARHELION_PROGRAM,
+        test::programFile(),
         {"render", "scene.xml", "--size", "1024x1024", "-o", "out.exr", "--backend", "reference", "--feature-spp", "0"},
         folder.path());
     ASSERT_TRUE(program.waitForError("rendering"));

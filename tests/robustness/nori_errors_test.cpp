@@ -5,6 +5,7 @@
 
 #include "support/bad_text.h"
 #include "support/nori_text.h"
+#include "support/paths.h"
 #include "support/run_program.h"
 
 namespace parhelion::test {
@@ -283,7 +284,7 @@ TEST(NoriProgram, ExitsWith2AndWritesNothing) {
     const TemporaryFolder folder;
     folder.write("scene.xml", noriSceneOf("<mesh type=\"rectangle\" id=\"x\"/>"));
     const auto output = folder.path() / "out.exr";
-    const ProgramResult result = runProgram(PARHELION_PROGRAM, {"render", "scene.xml", "-o", "out.exr"}, folder.path());
+    const ProgramResult result = runProgram(programFile(), {"render", "scene.xml", "-o", "out.exr"}, folder.path());
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_NE(result.error.find("scene.xml:2:24: <mesh> has no attribute \"id\""), std::string::npos) << result.error;
     EXPECT_FALSE(std::filesystem::exists(output));

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "support/mitsuba_reference.h"
+#include "support/paths.h"
 #include "support/shared_data.h"
 
 // Against images by Mitsuba 3 (tools/mitsuba/make_references.py), an independent renderer, with the noise of both sides
@@ -15,7 +16,7 @@ class MitsubaAgreement : public testing::TestWithParam<MitsubaReference> {};
 TEST_P(MitsubaAgreement, ImageMeanTilesAndPixelsAreTheSame) {
     if (sharedFile("benchmark").empty() || sharedFile("data/mitsuba").empty())
         GTEST_SKIP() << "../shared/benchmark or ../shared/data/mitsuba is missing";
-    expectAgreement(GetParam(), PARHELION_ROOT, Backend::Vulkan);
+    expectAgreement(GetParam(), test::projectFolder(), Backend::Vulkan);
 }
 
 const std::string kMitsubaTests = "../shared/data/mitsuba/tests/scenes/participating_media/";  // unchanged

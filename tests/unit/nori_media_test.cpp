@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/nori_text.h"
+#include "support/paths.h"
 
 namespace parhelion::test {
 namespace {
@@ -44,7 +45,7 @@ TEST(NoriMedium, OfItsOwnFillsItsBounds) {
 }
 
 TEST(NoriMedium, TakesADensityFileWithBoundsOfItsOwn) {
-    const std::string file = std::string(PARHELION_ROOT) + "/scenes/two_density.vol";
+    const std::string file = test::projectFolder() + "/scenes/two_density.vol";
     const std::string density = "<string name=\"filename\" value=\"" + file + "\"/>";
     const MediumDescription plain = readMedium("heterogeneous", kCoefficients + density);
     ASSERT_TRUE(plain.density);
@@ -84,7 +85,7 @@ TEST(NoriMedium, IsAProceduralCloudWithTheBaselinesParameters) {
 }
 
 TEST(NoriMedium, ModulatesAFileByTheCloudsDetail) {
-    const std::string file = std::string(PARHELION_ROOT) + "/scenes/two_density.vol";
+    const std::string file = test::projectFolder() + "/scenes/two_density.vol";
     const MediumDescription medium =
         readMedium("heterogeneous", kCoefficients + "<string name=\"filename\" value=\"" + file +
                                         R"("/><float name="detailAmount" value="0.3"/>)");

@@ -5,6 +5,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace parhelion::test {
@@ -104,7 +105,7 @@ TEST(ObjMesh, OtherLinesAndLineEndsDoNotMatter) {
 
 TEST(ObjMesh, MatchesMitsubaOnTheBunny) {
     const std::filesystem::path file =
-        std::filesystem::path(PARHELION_ROOT) / "../shared/data/meshes/stanford-bunny.obj";
+        std::filesystem::path(test::projectFolder()) / "../shared/data/meshes/stanford-bunny.obj";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
     const Mesh mesh = readObjMesh(file, {}, {});
     EXPECT_EQ(mesh.positions.size(), 34834u);

@@ -2,17 +2,19 @@
 #include <gtest/gtest.h>
 
 #include "compile/compile_film.h"
+#include "support/paths.h"
 #include "support/scene_reading.h"
 
 namespace parhelion::test {
 namespace {
 
-const std::filesystem::path kShared = std::filesystem::path(PARHELION_ROOT) / "../shared";
+const std::filesystem::path kShared = std::filesystem::path(test::projectFolder()) / "../shared";
 const std::filesystem::path kMitsuba = kShared / "data/mitsuba/tests/scenes/participating_media";
 
 TEST(ProjectScene, EveryOneReadsWithoutNotes) {
     std::size_t count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(PARHELION_ROOT) / "scenes")) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(test::projectFolder()) / "scenes")) {
         if (entry.path().extension() != ".xml") continue;
         ++count;
         const SceneDescription scene = readScene(entry.path());
@@ -90,7 +92,7 @@ TEST(MitsubaTestScene, BackgroundHasItsCheckerboard) {
 
 TEST(MitsubaTestScene, WithoutTexturesReads) {
     for (const char* name : {"hetero_sigmat.xml", "homo_null.xml"}) {
-        const std::filesystem::path file = std::filesystem::path(PARHELION_ROOT) / "tests/references" / name;
+        const std::filesystem::path file = std::filesystem::path(test::projectFolder()) / "tests/references" / name;
         if (!std::filesystem::exists(kMitsuba)) GTEST_SKIP() << "needs " << kMitsuba;
         const SceneDescription scene = readScene(file, {.defines = {{"size", "32"}}});
         EXPECT_EQ(scene.shapes.size(), 3u);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "reference/volume/phase_function.h"
+#include "support/paths.h"
 #include "support/phase_cases.h"
 #include "support/scene_reading.h"
 
@@ -25,7 +26,7 @@ shared::Medium compiled(const PhaseDescription& phase) { return PhaseCase("phase
 // Sign of the cosine, order of a table's values, meaning of a blend's weight. Mitsuba computes in single precision, and
 // loses up to a / (1 - a)^2 = 40 roundings at the peak of g = 0.85.
 TEST(PhaseText, MeansWhatItMeansInMitsuba) {
-    std::ifstream file(PARHELION_ROOT "/tests/references/phase_functions.csv");
+    std::ifstream file(test::projectFolder() + "/tests/references/phase_functions.csv");
     std::string line, text, mu, value;
     std::getline(file, line);
     int rows = 0;

@@ -9,6 +9,7 @@
 #include "image/image.h"
 #include "reference/geometry/intersection.h"
 #include "reference/surface/texture.h"
+#include "support/paths.h"
 #include "support/render_scene.h"
 #include "support/scene_reading.h"
 
@@ -23,7 +24,7 @@ struct Row {
 
 /// @param count  rows that the table has.
 std::vector<Row> rowsOf(const std::string& name, std::size_t count) {
-    std::ifstream file(PARHELION_ROOT "/tests/references/" + name);
+    std::ifstream file(test::projectFolder() + "/tests/references/" + name);
     std::vector<Row> rows;
     std::string line, cell;
     std::getline(file, line);  // the header

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace parhelion {
@@ -12,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kShared = fs::path(PARHELION_ROOT) / "../shared";
+const fs::path kShared = fs::path(test::projectFolder()) / "../shared";
 const std::vector<std::string> kExtensions{".vol", ".grid", ".vdb", ".nvdb"};
 
 class VolumeFile : public testing::Test {
