@@ -9,6 +9,7 @@ import re
 import sys
 import xml.etree.ElementTree
 
+from command import Refusal, run
 from source_text import comment_above
 
 TESTS = pathlib.Path(__file__).parents[1] / "tests"
@@ -34,7 +35,12 @@ def in_words(name):
 
 
 def main():
-    cases = xml.etree.ElementTree.parse(sys.argv[1]).getroot().iter("testcase")
+    if len(sys.argv) != 2:
+        raise Refusal("expected one argument, a JUnit file of ctest")
+    try:
+        cases = xml.etree.ElementTree.parse(sys.argv[1]).getroot().iter("testcase")
+    except xml.etree.ElementTree.ParseError as error:
+        raise Refusal(f"{sys.argv[1]}: expected a JUnit file of ctest: {error}") from error
     times = sorted(((float(case.get("time", 0)), case.get("name")) for case in cases), reverse=True)
     if not times:
         return
@@ -47,4 +53,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

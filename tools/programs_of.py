@@ -8,6 +8,8 @@ import pathlib
 import re
 import sys
 
+from command import Refusal, run
+
 ROOT = pathlib.Path(__file__).parents[1]
 TEST = re.compile(r"^\s*(TEST|TEST_F|TEST_P)\(\s*(\w+),\s*(\w+)\s*\)", re.MULTILINE)
 INSTANCE = re.compile(r"INSTANTIATE_TEST_SUITE_P\(\s*(\w+),\s*(\w+)\s*,")
@@ -65,9 +67,14 @@ def main():
     arguments = sys.argv[1:]
     pattern, label = option(arguments, "-R", "--tests-regex"), option(arguments, "-L", "--label-regex")
     excluded = option(arguments, "-LE", "--label-exclude")
+    for given in filter(None, (pattern, label, excluded)):
+        try:
+            re.compile(given)
+        except re.error as error:
+            raise Refusal(f"expected a regular expression; got {given}: {error}") from error
     if pattern or label:
         print("\n".join(sorted(chosen(pattern, label, excluded))))
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

@@ -112,6 +112,21 @@ class Tools(unittest.TestCase):
         (self.folder / "host" / "latin.cpp").write_bytes(b"// \xe9\n")
         self.assert_refuses(["UTF-8"], TOOLS / "check_sizes.py", self.folder)
 
+    def test_test_refuses_options_that_are_none_before_it_builds(self):
+        for words, *options in ((["--al"], "--al"), (["--frobnicate"], "-R", "Sky", "--frobnicate=4"),
+                                (["regular expression", "*("], "-R", "*("), (["regular expression"], "-L", "[")):
+            self.assert_refuses(words, TOOLS / "test", *options)
+
+    def test_render_refuses_scenes_that_are_no_files_before_it_builds(self):
+        self.assert_refuses(["tools/render: error", "missing.xml"], TOOLS / "render", "missing.xml")
+        self.assert_refuses([str(self.folder)], TOOLS / "render", self.folder)
+
+    def test_dearest_tests_refuses_what_is_no_report(self):
+        (self.folder / "cut.xml").write_text("<testsuite>")
+        self.assert_refuses(["cut.xml", "JUnit"], TOOLS / "dearest_tests.py", "cut.xml")
+        self.assert_refuses(["missing.xml"], TOOLS / "dearest_tests.py", "missing.xml")
+        self.assert_refuses(["one argument"], TOOLS / "dearest_tests.py")
+
     def test_generators_refuse_places_they_cannot_write_to(self):
         for name in ("make_knot.py", "make_environment.py", "make_courtyard.py"):
             self.assert_refuses([name, "missing"], TOOLS / name, self.folder / "missing" / "very" / "deep")

@@ -53,8 +53,8 @@ def chosen(options):
 
 
 def targets(cases):
-    """What has to be built for them: the program, and the test programs that exist."""
-    return ["parhelion", *sorted({case.program for case in cases if isinstance(case, TestCase) and case.source()})]
+    """What has to be built for them: the program, and those of the tests."""
+    return ["parhelion", *sorted({case.program for case in cases if isinstance(case, TestCase)})]
 
 
 def prepare_folder(folder):

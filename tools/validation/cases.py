@@ -78,15 +78,15 @@ class TestCase:
     name: str
     title: str
     text: str
-    program: str
+    folder: str  # of tests/
     filter: str
     baseline: str
     seconds: float
 
-    def source(self):
-        """The test's file, or nothing."""
-        files = (ROOT / "tests").glob(f"*/{self.program}.cpp")
-        return next((file for file in files if self.filter.strip("*") in file.read_text()), None)
+    @property
+    def program(self):
+        """The folder's tests are one program."""
+        return f"{self.folder}_tests"
 
 
 @dataclasses.dataclass(frozen=True)

@@ -53,11 +53,11 @@ BASELINE_IMAGES = (
 
 BASELINE_TESTS = (
     TestCase("chi-square-phase", "Chi-square: dual Henyey-Greenstein", "Sampled directions in 200 bins of (cos θ, φ).",
-             "phase_functions_test", "*BaselineDualHenyeyGreenstein*", "200 000 samples, p = 0.645", 10),
+             "statistical", "*BaselineDualHenyeyGreenstein*", "200 000 samples, p = 0.645", 10),
     TestCase("chi-square-first-event", "Chi-square: first event", "Distances through density 0.25, then 0.75; "
-             "P(escape) = exp(-1/2).", "free_flight_test", "*BaselineFirstEvent*",
+             "P(escape) = exp(-1/2).", "statistical", "*BaselineFirstEvent*",
              "200 000 samples, p = 0.445", 10),
-    TestCase("chi-square-scatter", "Chi-square: scatter or absorb", "Expected 0.75 : 0.25.", "scatter_or_absorb_test",
+    TestCase("chi-square-scatter", "Chi-square: scatter or absorb", "Expected 0.75 : 0.25.", "statistical",
              "*BaselineScatterOrAbsorb*", "79 116 events, p = 0.799", 10),
 )
 

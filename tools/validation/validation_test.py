@@ -66,7 +66,7 @@ class Validation(unittest.TestCase):
 
     def test_a_test_that_is_missing_is_an_error(self):
         settings = Settings(Program(BUILD, ROOT, "vulkan"), self.folder)
-        for change in ({"filter": "*NoSuchTest*"}, {"program": "no_such_test"}):
+        for change in ({"filter": "*NoSuchTest*"}, {"folder": "no_such"}):
             result = run_case(dataclasses.replace(BASELINE_TESTS[-1], **change), settings)
             self.assertEqual(result.status, "error")
             self.assertIn("no test", result.reason)
