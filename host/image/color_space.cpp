@@ -1,5 +1,7 @@
 #include "image/color_space.h"
 
+#include <cmath>
+
 namespace parhelion {
 
 namespace {
@@ -14,6 +16,12 @@ double squaredDistance(const Chromaticities& a, const Chromaticities& b) {
 }
 
 }  // namespace
+
+bool spansColours(const Chromaticities& space) {
+    constexpr double kLeast = 1e-6;  // Rec. 709 has .22, twice its triangle's area
+    const glm::dvec2 toGreen = space.green - space.red, toBlue = space.blue - space.red;
+    return std::abs(toGreen.x * toBlue.y - toGreen.y * toBlue.x) >= kLeast && std::abs(space.white.y) >= kLeast;
+}
 
 glm::dmat3 xyzFromRgb(const Chromaticities& space) {
     const glm::dmat3 primaries(xyzOf(space.red), xyzOf(space.green), xyzOf(space.blue));

@@ -9,6 +9,10 @@ namespace parhelion {
 /// The primaries and the white, D65, of ITU-R BT.709.
 inline constexpr Chromaticities kRec709{{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}};
 
+/// Whether the primaries lie apart and off one line, and the white has a luminance: else rounding alone decides what
+/// the matrices below hold.
+bool spansColours(const Chromaticities& space);
+
 /// Linear RGB of the given primaries to CIE XYZ; white has Y = 1.
 glm::dmat3 xyzFromRgb(const Chromaticities& space);
 

@@ -1,5 +1,6 @@
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
+#include <ImfEnvmapAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -84,17 +85,41 @@ std::optional<Chromaticities> readChromaticities(const Imf::Header& header) {
     return Chromaticities{{c.red.x, c.red.y}, {c.green.x, c.green.y}, {c.blue.x, c.blue.y}, {c.white.x, c.white.y}};
 }
 
+std::string readEnvironmentLayout(const Imf::Header& header) {
+    if (!Imf::hasEnvmap(header)) return {};
+    const Imf::Envmap layout = Imf::envmap(header);
+    return layout == Imf::ENVMAP_LATLONG ? "latitude-longitude" : layout == Imf::ENVMAP_CUBE ? "cube" : "unknown";
+}
+
+/// What the header says of the pixels beyond their values.
+std::vector<std::string> remarksOn(const Imf::Header& header) {
+    std::vector<std::string> remarks;
+    const Imath::Box2i data = header.dataWindow(), display = header.displayWindow();
+    if (data != display)
+        remarks.push_back(
+            fmt::format("the picture is the data window, ({}, {}) to ({}, {}); the display window, ({}, {}) "
+                        "to ({}, {}), has no effect",
+                        data.min.x, data.min.y, data.max.x, data.max.y, display.min.x, display.min.y, display.max.x,
+                        display.max.y));
+    if (header.pixelAspectRatio() != 1.0f)
+        remarks.push_back(fmt::format("\"pixelAspectRatio\" {} has no effect", header.pixelAspectRatio()));
+    return remarks;
+}
+
 Image readPart(Imf::MultiPartInputFile& input) {
     const Imf::Header& header = input.header(0);
     const Imath::Box2i window = header.dataWindow();
     Image image{.size = sizeOf(window),
                 .channels = {},
                 .attributes = readAttributes(header),
-                .chromaticities = readChromaticities(header)};
+                .chromaticities = readChromaticities(header),
+                .environmentLayout = readEnvironmentLayout(header),
+                .remarks = remarksOn(header)};
     Imf::FrameBuffer target;
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         std::vector<float>& values = image.channels[channel.name()];
         values.resize(std::size_t{image.size.x} * image.size.y);
+        if (channel.channel().type == Imf::UINT) image.integerChannels.insert(channel.name());
         target.insert(channel.name(),
                       Imf::Slice::Make(Imf::FLOAT, values.data(), window, sizeof(float), sizeof(float) * image.size.x));
     }

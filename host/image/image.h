@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <variant>
@@ -26,6 +27,9 @@ struct Image {
     std::map<std::string, std::vector<float>> channels;  ///< "R", "G", "B", "variance.R", ...; size.x * size.y each
     std::map<std::string, Attribute> attributes;
     std::optional<Chromaticities> chromaticities = {};  ///< of R, G and B, if the file says so
+    std::string environmentLayout = {};          ///< "latitude-longitude", "cube" or "unknown", if the file says so
+    std::set<std::string> integerChannels = {};  ///< those that the file keeps as whole numbers
+    std::vector<std::string> remarks = {};       ///< what the file says of its pixels that is not made use of
 
     bool has(const std::string& channel) const { return channels.contains(channel); }
 };

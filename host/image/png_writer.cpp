@@ -1,12 +1,10 @@
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <fmt/format.h>
-#include <stb/stb_image_write.h>
+#include <png.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <cstring>
 
 #include "base/files.h"
 #include "image/image.h"
@@ -44,12 +42,6 @@ std::vector<std::uint8_t> displayBytes(const Image& image, double exposureStops)
     return bytes;
 }
 
-void appendBytes(void* target, void* data, int size) {
-    const auto* bytes = static_cast<const std::byte*>(data);
-    static_cast<std::vector<std::byte>*>(target)->insert(static_cast<std::vector<std::byte>*>(target)->end(), bytes,
-                                                         bytes + size);
-}
-
 /// From blue over white to red, for x in [-1, 1].
 std::array<std::uint8_t, 3> divergingColour(double x) {
     if (std::isnan(x)) return {0, 160, 0};
@@ -60,15 +52,60 @@ std::array<std::uint8_t, 3> divergingColour(double x) {
             std::uint8_t(std::lround(colour.b))};
 }
 
+/// libpng's state for one file; its errors jump back to encode(), whose part must own nothing.
+class PngEncoder {
+public:
+    PngEncoder() {
+        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, &PngEncoder::onError, nullptr);
+        info_ = png_ ? png_create_info_struct(png_) : nullptr;
+        if (!info_) throw RuntimeFailure("libpng: out of memory");
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        png_set_write_fn(png_, &content_, &PngEncoder::onWrite, nullptr);
+    }
+    ~PngEncoder() { png_destroy_write_struct(&png_, &info_); }
+    PngEncoder(const PngEncoder&) = delete;
+    PngEncoder& operator=(const PngEncoder&) = delete;
+
+    /// An 8-bit sRGB file. @throws RuntimeFailure with what libpng says.
+    const std::vector<std::byte>& encode(glm::uvec2 size, const std::vector<std::uint8_t>& pixels) {
+        if (!tryEncode(size, pixels.data()))
+            throw RuntimeFailure(fmt::format("cannot encode a PNG: {}", message_.data()));
+        return content_;
+    }
+
+private:
+    bool tryEncode(glm::uvec2 size, const std::uint8_t* pixels) {
+        if (setjmp(png_jmpbuf(png_))) return false;
+        png_set_IHDR(png_, info_, size.x, size.y, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE,
+                     PNG_FILTER_TYPE_BASE);
+        png_set_sRGB(png_, info_, PNG_sRGB_INTENT_RELATIVE);
+        png_write_info(png_, info_);
+        for (std::size_t y = 0; y < size.y; ++y) png_write_row(png_, pixels + 3 * y * size.x);
+        png_write_end(png_, info_);
+        return true;
+    }
+
+    static void onError(png_structp png, png_const_charp message) {
+        auto& self = *static_cast<PngEncoder*>(png_get_error_ptr(png));
+        std::strncpy(self.message_.data(), message, self.message_.size() - 1);
+        png_longjmp(png, 1);
+    }
+
+    static void onWrite(png_structp png, png_bytep data, std::size_t size) {
+        auto& content = *static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
+        const auto* bytes = reinterpret_cast<const std::byte*>(data);
+        content.insert(content.end(), bytes, bytes + size);
+    }
+
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+    std::vector<std::byte> content_;
+    std::array<char, 256> message_{};
+};
+
 void encodePng(const std::filesystem::path& file, glm::uvec2 size, const std::vector<std::uint8_t>& pixels) {
-    // The encoder counts bytes in an int.
-    if ((3.0 * size.x + 1) * size.y > std::numeric_limits<int>::max())
-        throw InputError(fmt::format("a PNG must have fewer than 2^31 bytes; got {} x {} pixels", size.x, size.y));
-    std::vector<std::byte> content;
-    const int width = static_cast<int>(size.x), height = static_cast<int>(size.y);
-    if (stbi_write_png_to_func(appendBytes, &content, width, height, 3, pixels.data(), 3 * width) == 0)
-        throw RuntimeFailure(fmt::format("cannot encode '{}' as PNG", file.string()));
-    writeAtomically(file, content);
+    PngEncoder encoder;
+    writeAtomically(file, encoder.encode(size, pixels));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "scene/read_bitmaps.h"
 #include "scene/read_sky.h"
 #include "scene/transforms.h"
 
@@ -55,7 +56,7 @@ void readMap(ReadContext& context, PropertyReader& reader, EmitterDescription& e
         context.note(reader.whereOf("toWorld"),
                      "the translation of an environment map, infinitely far away, has no effect");
     const std::filesystem::path file = reader.file("filename");
-    emitter.map = readBitmap(file, reader.whereOf("filename"));
+    emitter.map = readEnvironmentBitmap(context, file, reader.whereOf("filename"));
 }
 
 void readInfinite(PropertyReader& reader, EmitterDescription& emitter) {

@@ -2,6 +2,7 @@
 
 #include "scene/nori_media.h"
 #include "scene/obj_mesh.h"
+#include "scene/read_bitmaps.h"
 #include "scene/transforms.h"
 
 namespace parhelion {
@@ -29,7 +30,7 @@ void readTexture(ReadContext& context, PropertyReader& reader, BsdfDescription& 
     bsdf.reflectance = reader.color("tint", 1.0, kUnitInterval);
     const std::filesystem::path file = reader.file("filename");
     reader.finish();
-    texture.bitmap = readBitmap(file, reader.whereOf("filename"), isRaw ? BitmapEncoding::kRaw : BitmapEncoding::kSrgb);
+    texture.bitmap = readTextureBitmap(context, file, reader.whereOf("filename"), isRaw);
     bsdf.texture = context.scene.textures.size();
     context.scene.textures.push_back(std::move(texture));
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scene/read_bitmaps.h"
 #include "scene/read_media.h"
 #include "scene/read_sky.h"
 #include "scene/read_textures.h"
@@ -84,7 +85,7 @@ void readEnvironmentMap(ReadContext& context, PropertyReader& reader, EmitterDes
         context.note(reader.whereOf("to_world"),
                      "the translation of an environment map, infinitely far away, has no effect");
     const std::filesystem::path file = reader.file("filename");
-    emitter.map = readBitmap(file, reader.whereOf("filename"));
+    emitter.map = readEnvironmentBitmap(context, file, reader.whereOf("filename"));
 }
 
 constexpr SkyNames kSkyNames{.axis = "axis",

@@ -1,5 +1,6 @@
 #include "scene/read_textures.h"
 
+#include "scene/read_bitmaps.h"
 #include "scene/transforms.h"
 
 namespace parhelion {
@@ -31,7 +32,7 @@ void readBitmapTexture(ReadContext& context, PropertyReader& reader, TextureDesc
     texture.uvTransform = readUvTransform(context, reader);
     const std::filesystem::path file = reader.file("filename");
     reader.finish();
-    texture.bitmap = readBitmap(file, reader.whereOf("filename"), isRaw ? BitmapEncoding::kRaw : BitmapEncoding::kSrgb);
+    texture.bitmap = readTextureBitmap(context, file, reader.whereOf("filename"), isRaw);
 }
 
 glm::dvec3 readCheckerColor(PropertyReader& reader, std::string_view name, double fallback) {

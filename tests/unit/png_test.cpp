@@ -1,13 +1,10 @@
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
 #include <gtest/gtest.h>
-#include <stb/stb_image.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "image/bitmap.h"
 #include "image/image.h"
 #include "image/tone_curve.h"
 #include "support/temporary_folder.h"
@@ -25,18 +22,23 @@ Image imageOf(const std::vector<glm::vec3>& pixels) {
     return image;
 }
 
+/// The code values of a PNG, without a note on it.
+std::vector<Colour> coloursIn(const std::filesystem::path& file) {
+    const Bitmap bitmap = readBitmap(file, {}, BitmapEncoding::kRaw);
+    EXPECT_TRUE(bitmap.notes.empty());
+    std::vector<Colour> colours;
+    for (const glm::vec3& texel : bitmap.texels) {
+        const glm::ivec3 code = glm::ivec3(glm::round(texel * 255.0f));
+        colours.push_back({code.r, code.g, code.b});
+    }
+    return colours;
+}
+
 std::vector<Colour> shownColours(const std::vector<glm::vec3>& pixels, double exposureStops = 0) {
     const TemporaryFolder folder;
-    const std::string file = (folder.path() / "a.png").string();
-    writePng(file, imageOf(pixels), exposureStops);
-    int width = 0, height = 0, channels = 0;
-    stbi_uc* bytes = stbi_load(file.c_str(), &width, &height, &channels, 0);
-    std::vector<Colour> colours;
-    for (int i = 0; bytes && i < width * height; ++i)
-        colours.push_back({bytes[3 * i], bytes[3 * i + 1], bytes[3 * i + 2]});
-    EXPECT_EQ(channels, 3);
+    writePng(folder.path() / "a.png", imageOf(pixels), exposureStops);
+    const std::vector<Colour> colours = coloursIn(folder.path() / "a.png");
     EXPECT_EQ(colours.size(), pixels.size());
-    stbi_image_free(bytes);
     return colours;
 }
 
@@ -111,21 +113,18 @@ TEST(PngFile, RefusesMissingChannelsAndWildExposure) {
 
 TEST(SignedPng, ShowsSignAndSize) {
     const TemporaryFolder folder;
-    const std::string file = (folder.path() / "signed.png").string();
+    const std::filesystem::path file = folder.path() / "signed.png";
     const float nan = std::numeric_limits<float>::quiet_NaN();
     writeSignedPng(file, {6, 1}, std::vector<float>{0, 2, 9, -2, -1, nan}, 2.0);
-    int width = 0, height = 0, channels = 0;
-    stbi_uc* bytes = stbi_load(file.c_str(), &width, &height, &channels, 0);
-    ASSERT_NE(bytes, nullptr);
-    ASSERT_EQ(width, 6);
-    const auto at = [&](int i) { return Colour{bytes[3 * i], bytes[3 * i + 1], bytes[3 * i + 2]}; };
+    const std::vector<Colour> colours = coloursIn(file);
+    ASSERT_EQ(colours.size(), 6u);
+    const auto at = [&](std::size_t i) { return colours[i]; };
     EXPECT_EQ(at(0), (Colour{255, 255, 255}));
     EXPECT_GT(at(1)[0], at(1)[2] + 100);  // red
     EXPECT_EQ(at(2), at(1));              // beyond the range
     EXPECT_GT(at(3)[2], at(3)[0] + 100);  // blue
     EXPECT_GT(at(4)[0], at(3)[0]);        // half way to white
     EXPECT_GT(at(5)[1], at(5)[0] + 100);  // not a number: green
-    stbi_image_free(bytes);
 }
 
 }  // namespace
