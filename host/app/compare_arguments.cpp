@@ -40,20 +40,20 @@ Command addCompareCommand(CommandLine& program, CompareArguments& arguments) {
     addNumberOption(command, "--error-range", arguments.errorRange, 1e-30, kMax,
                     "error of full colour in PREFIX_error.png");
     addLimits(command, arguments);
-    command.addFlag("--json", arguments.json, "print as JSON");
+    command.addFlag("--json", arguments.json,
+                    "print as JSON, null for what is not finite; `verdict` is identical, agree, lessNoise, moreNoise, "
+                    "differ, noiseUnknown or notFinite");
     command.setFooter(
         "Examples:\n"
         "  parhelion compare cloud.exr oracle.exr\n"
         "  parhelion compare cloud.exr oracle.exr --agree --error difference.exr\n"
         "  parhelion compare cloud.exr oracle.exr --max-relmse 0.01 --max-mean-difference 0.002\n\n"
-        "The first line is the verdict: identical; agree; less noise than independent renders would have; MORE THAN "
-        "NOISE;\n"
-        "DIFFERENT; different, noise unknown; or NOT FINITE. Limits alone decide the exit code. Identical images pass "
-        "all\n"
-        "of them but --independent-noise; with a value that is not finite none is passed.\n"
-        "Exit codes: 0 within every limit given, or none given; 1 beyond one; 2 bad input: a file that is no image, "
-        "another\n"
-        "size, a missing channel, a negative variance; 3 memory; 130 interrupted.");
+        "The first line is the verdict: identical; agree; less noise than independent renders would have;\n"
+        "MORE THAN NOISE; DIFFERENT; different, noise unknown; or NOT FINITE. Only limits decide the exit\n"
+        "code. Identical images pass all of them but --independent-noise; no limit is passed with a value\n"
+        "that is not finite.\n"
+        "Exit codes: 0 within every limit given, or none given; 1 beyond one; 2 bad input (a file that is\n"
+        "no image, another size, a missing channel, a negative variance); 3 memory; 130 interrupted.");
     return command;
 }
 

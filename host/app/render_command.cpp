@@ -77,8 +77,10 @@ void requireMemory(glm::uvec2 pixels, std::uint32_t depthLayers) {
     const double needed = (kBytesPerPixel + layerBytes) * pixels.x * pixels.y;
     const double allowed = 0.5 * static_cast<double>(physicalMemoryBytes());
     if (needed > allowed)
-        throw InputError(fmt::format("film of {} needs {}, half of the memory is {}: --size or --crop make it smaller",
-                                     formatSize(pixels), formatBytes(needed), formatBytes(allowed)));
+        throw InputError(fmt::format(
+            "film of {}{} needs {}, half of the memory is {}: --size or --crop make it smaller{}", formatSize(pixels),
+            depthLayers > 0 ? fmt::format(" with {} depth layers", depthLayers) : "", formatBytes(needed),
+            formatBytes(allowed), depthLayers > 0 ? ", so do fewer --depth-layers" : ""));
 }
 
 CompiledScene compile(const RenderArguments& arguments, const SceneDescription& description) {

@@ -72,6 +72,9 @@ std::vector<BadUsage> badUses() {
         badRender("RepeatedOption", {"--spp", "4", "--spp", "8"}, "--spp"),
         // 4 Gi pixels: about a terabyte.
         badRender("FilmBeyondMemory", {"--size", "65536x65536"}, "film of 65536x65536 needs "),
+        // 64 Mi pixels in 64 layers of 60 bytes: about 240 GiB.
+        badRender("LayersBeyondMemory", {"--size", "8192x8192", "--depth-layers", "64"},
+                  "film of 8192x8192 with 64 depth layers needs "),
         badRender("NoExr", {"-o", "image.jpg"}, ".exr"),
         badRender("OutputInMissingFolder", {"-o", "missing/image.exr"}, "missing/image.exr"),
         badRender("OutputIsFolder", {"-o", "folder.exr"}, "folder.exr"),
