@@ -93,7 +93,7 @@ void noteChannels(const BitmapFile& file, const Image& image, const Names& names
 }  // namespace
 
 Bitmap readExrBitmap(const BitmapFile& file) {
-    const Image image = readExr(file.path);
+    const Image image = readExr(file.path, kMaxBitmapSize);
     Bitmap bitmap = file.makeBitmap(image.size.x, image.size.y);
     bitmap.environmentLayout = image.environmentLayout;
     const auto [set, names] = colourChannels(file, image);

@@ -131,12 +131,15 @@ Image readPart(Imf::MultiPartInputFile& input) {
 
 }  // namespace
 
-Image readExr(const std::filesystem::path& file) {
+Image readExr(const std::filesystem::path& file, unsigned maxSide) {
     readableFileSize(file);
     const SourceLocation where{file.string()};
     try {
         Imf::MultiPartInputFile input(file.c_str());
         requireFlatSinglePart(input, where);
+        if (const glm::uvec2 size = sizeOf(input.header(0).dataWindow()); size.x > maxSide || size.y > maxSide)
+            throw InputError(
+                where, fmt::format("a bitmap may have at most {} texels a side; got {} x {}", maxSide, size.x, size.y));
         requireReadableChannels(input.header(0), where);
         return readPart(input);
     } catch (const InputError&) {

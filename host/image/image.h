@@ -38,7 +38,8 @@ struct Image {
 /// float exactly, uint rounded. String, int, float and double attributes are kept; others describe the file.
 /// @throws InputError for a missing or damaged file, one with several parts, deep pixels or subsampled channels, and
 ///         one larger than half of the memory.
-Image readExr(const std::filesystem::path& file);
+/// @param maxSide  largest width and height that are of use; a damaged header's larger ones are refused at once.
+Image readExr(const std::filesystem::path& file, unsigned maxSide = ~0u);
 
 /// Writes float32 channels, ZIP compressed, through a temporary file and a rename. Strings, doubles and ints become
 /// attributes of those types (int64 beyond int32 as string).

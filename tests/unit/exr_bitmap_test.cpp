@@ -203,6 +203,21 @@ TEST(NegativeTexels, OfLossyCompressionAreBlack) {
     for (const glm::vec3& texel : bitmap.texels) EXPECT_TRUE(texel.r >= 0 && texel.g >= 0 && texel.b >= 0);
 }
 
+// Room for 8 million columns would be a gigabyte, and the file has no pixels at all.
+TEST(ExrWindows, OfAbsurdSizesAreRefusedBeforeThereIsRoomForThem) {
+    const TemporaryFolder folder;
+    Imf::Header header(8388608, 18);
+    header.channels().insert("Y", Imf::Channel(Imf::HALF));
+    { Imf::OutputFile output((folder.path() / "wide.exr").c_str(), header); }
+    try {
+        readBitmap(folder.path() / "wide.exr", {});
+        ADD_FAILURE() << "was read";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("at most 65536 texels a side; got 8388608 x 18"), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(InfiniteTexels, AreCountedAndTheFirstNamed) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     const std::string error = errorOf({{"R", {1, kInfinity}}, {"G", {1, 1}}, {"B", {1, std::nanf("")}}});
