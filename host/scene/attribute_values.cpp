@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <locale>
+#include <sstream>
 
 namespace parhelion {
 namespace {
@@ -34,6 +36,16 @@ glm::dvec3 parseHexColor(const XmlAttribute& attribute, std::string_view digits)
     return {channel(16), channel(8), channel(0)};
 }
 
+/// Of a number that from_chars calls out of range: zero (or what is left of it) if it is too small for a double, NaN
+/// if it is too large. Streams, unlike from_chars, tell the two apart.
+double outOfRange(std::string_view text) {
+    std::istringstream stream{std::string(text)};
+    stream.imbue(std::locale::classic());
+    double number = 0.0;
+    stream >> number;
+    return stream.fail() ? std::numeric_limits<double>::quiet_NaN() : number;
+}
+
 }  // namespace
 
 double numberOrNan(std::string_view text) {
@@ -41,8 +53,9 @@ double numberOrNan(std::string_view text) {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars knows no plus
     double number = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool whole = error == std::errc{} && end == text.data() + text.size();
-    return whole ? number : std::numeric_limits<double>::quiet_NaN();
+    if (end != text.data() + text.size()) return std::numeric_limits<double>::quiet_NaN();
+    if (error == std::errc::result_out_of_range) return outOfRange(text);
+    return error == std::errc{} ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
 double parseNumber(const XmlAttribute& attribute) {

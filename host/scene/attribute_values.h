@@ -30,7 +30,8 @@ glm::dvec3 parseColor(const XmlAttribute& attribute);
 /// @throws InputError also when both forms are mixed.
 glm::dvec3 parseXyz(const XmlElement& element, std::optional<double> fallback);
 
-/// The number that `text` is, spaces around it aside; NaN when it is anything else.
+/// The number that `text` is, spaces around it aside; NaN when it is anything else or beyond a double. What is too
+/// small for one is 0.
 double numberOrNan(std::string_view text);
 
 }  // namespace parhelion

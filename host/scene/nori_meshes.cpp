@@ -73,7 +73,7 @@ void readContent(ReadContext& context, PropertyReader& reader, ShapeDescription&
         reader.fail(reader.where(), "a mesh that light passes through cannot emit; give it a \"diffuse\" BSDF");
 }
 
-void readGeometry(PropertyReader& reader, ShapeDescription& shape) {
+void readGeometry(ReadContext& context, PropertyReader& reader, ShapeDescription& shape) {
     shape.toWorld = reader.transform("toWorld").matrix;
     if (reader.type() == "obj") {
         shape.type = ShapeDescription::Type::Mesh;
@@ -81,6 +81,7 @@ void readGeometry(PropertyReader& reader, ShapeDescription& shape) {
         options.smooth = options.flipTexCoords = false;
         const std::filesystem::path file = reader.file("filename");
         shape.mesh = readObjMesh(file, reader.whereOf("filename"), options);
+        context.note(shape.mesh.notes);
     } else if (reader.type() == "sphere") {
         shape.type = ShapeDescription::Type::Sphere;
         shape.center = reader.triple("center", glm::dvec3(0.0));
@@ -102,7 +103,7 @@ void readNoriMesh(ReadContext& context, const XmlElement& element) {
     PropertyReader reader(context.tree, element);
     ShapeDescription shape;
     shape.where = reader.where();
-    readGeometry(reader, shape);
+    readGeometry(context, reader, shape);
     readContent(context, reader, shape);
     reader.finish();
     context.scene.shapes.push_back(std::move(shape));

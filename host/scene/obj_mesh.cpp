@@ -80,11 +80,11 @@ class MeshBuilder {
 public:
     MeshBuilder(const ObjLines& lines, const ObjOptions& options) : lines_(lines), options_(options) {}
 
-    Mesh build(const std::vector<SourceLocation>& where) {
-        const bool keepNormals = hasNormals(where);
+    Mesh build(const ObjText& text) {
+        const bool keepNormals = hasNormals(text);
         for (std::size_t i = 0; i < lines_.faces.size(); ++i) {
             const std::vector<ObjLines::Corner>& face = lines_.faces[i];
-            if (face.size() > 3) checkFan(lines_.positions, face, where[i]);
+            if (face.size() > 3) checkFan(lines_.positions, face, text.whereOfFace(i));
             for (std::size_t corner = 2; corner < face.size(); ++corner)
                 mesh_.triangles.push_back({vertex(face[0]), vertex(face[corner - 1]), vertex(face[corner])});
         }
@@ -102,17 +102,17 @@ private:
     }
 
     /// Whether the file's normals are to be used: all corners have one, or none has.
-    bool hasNormals(const std::vector<SourceLocation>& where) const {
+    bool hasNormals(const ObjText& text) const {
         if (options_.faceNormals || lines_.normals.empty()) return false;
         const bool first = lines_.faces[0][0][2] >= 0;
         for (std::size_t i = 0; i < lines_.faces.size(); ++i)
             for (const ObjLines::Corner& corner : lines_.faces[i]) {
                 if ((corner[2] >= 0) != first)
-                    throw InputError(where[i],
+                    throw InputError(text.whereOfFace(i),
                                      "either all corners of the file have a normal or none; set "
                                      "\"face_normals\" to ignore them");
                 if (first && lines_.normals[static_cast<std::size_t>(corner[2])] == glm::dvec3(0.0))
-                    throw InputError(where[i], "a normal (vn) of this face has length zero");
+                    throw InputError(text.whereOfFace(i), "a normal (vn) of this face has length zero");
             }
         return first;
     }
@@ -160,7 +160,8 @@ void addSmoothNormals(Mesh& mesh, const glm::dmat4& toWorld, const std::string& 
 Mesh readObjMesh(const std::filesystem::path& file, const SourceLocation& where, const ObjOptions& options) {
     const ObjText text = checkObjText(readTextFile(file, where), file.string());
     const ObjLines lines = parseLines(text.geometry, file.string());
-    Mesh mesh = MeshBuilder(lines, options).build(text.faces);
+    Mesh mesh = MeshBuilder(lines, options).build(text);
+    mesh.notes = text.notes;
     if (mesh.normals.empty() && options.smooth && !options.faceNormals)
         addSmoothNormals(mesh, options.toWorld, file.string());
     return mesh;

@@ -7,138 +7,158 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
+#include "base/text_encoding.h"
 #include "scene/attribute_values.h"
+#include "scene/obj_remainder.h"
+#include "scene/obj_statements.h"
 
 namespace parhelion {
 namespace {
 
-constexpr std::string_view kSpaces = " \t";
-
-/// One line, cut into words from the left.
-class Words {
-public:
-    Words(std::string_view line, const SourceLocation& where) : line_(line), where_(where) {}
-
-    /// The next word, or empty at the end.
-    std::string_view next() {
-        begin_ = std::min(line_.find_first_not_of(kSpaces, end_), line_.size());
-        end_ = std::min(line_.find_first_of(kSpaces, begin_), line_.size());
-        return line_.substr(begin_, end_ - begin_);
-    }
-
-    /// Of the word that next() returned last.
-    SourceLocation where() const { return {where_.file, where_.line, static_cast<int>(begin_) + 1}; }
-
-private:
-    std::string_view line_;
-    SourceLocation where_;
-    std::size_t begin_ = 0, end_ = 0;
-};
+/// The number for tinyobjloader, whose own reading goes wrong for many digits and for large exponents.
+void appendNumber(std::string& text, std::string_view word, double value) {
+    constexpr std::size_t kManyDigits = 32;
+    const bool isPlain = word.size() <= kManyDigits && word.find_first_of("eE") == std::string_view::npos;
+    const double size = std::abs(value);
+    if (isPlain || (word.size() <= kManyDigits && size > 1e-30 && size < 1e30))
+        text.append(" ").append(word);
+    else
+        fmt::format_to(std::back_inserter(text), " {}", static_cast<float>(value));
+}
 
 class ObjChecker {
 public:
-    explicit ObjChecker(const std::string& file) { where_.file = file; }
+    explicit ObjChecker(const std::string& file) : remainder_(file) { result_.file = file; }
 
-    void checkLine(std::string_view line) {
-        ++where_.line;
-        Words words(line, where_);
-        const std::string_view keyword = words.next();
-        if (keyword == "v") {
-            checkNumbers(words, 3, "a vertex");
-            ++counts_[0];
-        } else if (keyword == "vt") {
-            checkNumbers(words, 1, "a texture coordinate");
-            ++counts_[1];
-        } else if (keyword == "vn") {
-            checkNumbers(words, 3, "a normal");
-            ++counts_[2];
-        } else if (keyword == "f") {
-            result_.faces.push_back(words.where());
+    void check(std::span<const ObjWord> words) {
+        const std::string_view keyword = words[0].text;
+        if (keyword == "v")
+            checkVertex(words);
+        else if (keyword == "vt")
+            checkNumbers(words, 1, 1, "a texture coordinate");
+        else if (keyword == "vn")
+            checkNumbers(words, 2, 3, "a normal");
+        else if (keyword == "f" || keyword == "fo")  // the older name
             checkFace(words);
-        } else {
-            return;
-        }
-        result_.geometry.append(line).push_back('\n');
+        else
+            remainder_.add(words);
     }
 
     ObjText finish() {
         for (std::size_t kind = 0; kind < 3; ++kind)
             if (largest_[kind] > counts_[kind])
-                throw InputError(largestWhere_[kind], fmt::format("{} index {} is past the end: the file has {}",
-                                                                  kNames[kind], largest_[kind], counts_[kind]));
+                fail(largestWhere_[kind], fmt::format("{} index {} is past the end: the file has {}", kNames[kind],
+                                                      largest_[kind], counts_[kind]));
+        result_.notes = remainder_.notes();
         if (result_.faces.empty())
-            throw InputError(SourceLocation{where_.file}, "an OBJ file needs faces (f); got none");
+            throw InputError(SourceLocation{result_.file},
+                             "an OBJ file needs faces (f); got none" + remainder_.unknownWords());
         return std::move(result_);
     }
 
 private:
     static constexpr std::array kNames{"vertex", "texture coordinate", "normal"};
 
-    /// A coordinate; further words on the line (weights, colours) must be numbers as well.
-    void checkNumbers(Words& words, int least, std::string_view what) {
-        int count = 0;
-        for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
-            const double value = numberOrNan(word);
+    [[noreturn]] void fail(const ObjWord& word, const std::string& message) const {
+        throw InputError(SourceLocation{result_.file, word.line, word.column}, message);
+    }
+
+    void checkVertex(std::span<const ObjWord> words) {
+        checkNumbers(words, 0, 3, "a vertex");
+        remainder_.addVertex(words);
+    }
+
+    /// A coordinate of that kind; further words of the statement (weights, colours) must be numbers as well.
+    void checkNumbers(std::span<const ObjWord> words, std::size_t kind, std::size_t least, std::string_view what) {
+        result_.geometry.append(words[0].text);
+        for (const ObjWord& word : words.subspan(1)) {
+            const double value = numberOrNan(word.text);
             if (!(std::abs(value) <= std::numeric_limits<float>::max()))
-                throw InputError(words.where(),
-                                 fmt::format("{} must have finite numbers (32 bit); got \"{:.40}\"", what, word));
+                fail(word, fmt::format("{} must have finite numbers (32 bit); got \"{:.40}\"", what, word.text));
+            appendNumber(result_.geometry, word.text, value);
         }
-        if (count < least) throw InputError(where_, fmt::format("{} needs {} numbers; got {}", what, least, count));
+        if (words.size() - 1 < least)
+            fail(words[0], fmt::format("{} needs {} numbers; got {}", what, least, words.size() - 1));
+        result_.geometry.push_back('\n');
+        ++counts_[kind];
     }
 
-    void checkFace(Words& words) {
-        int corners = 0;
-        for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++corners)
-            checkCorner(word, words.where());
-        if (corners < 3) throw InputError(where_, fmt::format("a face needs at least 3 corners; got {}", corners));
+    void checkFace(std::span<const ObjWord> words) {
+        result_.faces.push_back({words[0].line, words[0].column});
+        result_.geometry.append("f");
+        for (const ObjWord& word : words.subspan(1)) {
+            checkCorner(word);
+            // "1//" is "1": what is left out at the end needs no slashes.
+            const std::string_view corner = word.text.substr(0, word.text.find_last_not_of('/') + 1);
+            result_.geometry.append(" ").append(corner);
+        }
+        if (words.size() < 4) fail(words[0], fmt::format("a face needs at least 3 corners; got {}", words.size() - 1));
+        result_.geometry.push_back('\n');
     }
 
-    /// "v", "v/vt", "v//vn" or "v/vt/vn".
-    void checkCorner(std::string_view word, const SourceLocation& where) {
-        std::string_view rest = word;
+    /// "v", "v/vt", "v//vn" or "v/vt/vn"; texture coordinate and normal may be missing behind their slash.
+    void checkCorner(const ObjWord& word) {
+        std::string_view rest = word.text;
         for (std::size_t kind = 0; kind < 3; ++kind) {
             const std::size_t slash = std::min(rest.find('/'), rest.size());
-            const bool skipped = kind == 1 && slash == 0 && rest.size() > 1;  // v//vn
-            if (!skipped) checkIndex(rest.substr(0, slash), kind, word, where);
+            if (slash > 0 || kind == 0) checkIndex(rest.substr(0, slash), kind, word);
             if (slash == rest.size()) return;
             rest.remove_prefix(slash + 1);
         }
-        throw InputError(where, fmt::format("a face corner is v, v/vt, v//vn or v/vt/vn; got \"{:.40}\"", word));
+        fail(word, fmt::format("a face corner is v, v/vt, v//vn or v/vt/vn; got \"{:.40}\"", word.text));
     }
 
-    void checkIndex(std::string_view text, std::size_t kind, std::string_view word, const SourceLocation& where) {
+    void checkIndex(std::string_view text, std::size_t kind, const ObjWord& word) {
         std::int32_t index = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
         if (text.empty() || error != std::errc{} || end != text.data() + text.size() || index == 0)
-            throw InputError(
-                where, fmt::format("a {} index must be an integer other than 0; got \"{:.40}\"", kNames[kind], word));
+            fail(word,
+                 fmt::format("a {} index must be an integer other than 0; got \"{:.40}\"", kNames[kind], word.text));
         if (index < 0 && -std::int64_t{index} > counts_[kind])
-            throw InputError(where, fmt::format("{} index {} reaches before the first of {} so far", kNames[kind],
-                                                index, counts_[kind]));
+            fail(word,
+                 fmt::format("{} index {} reaches before the first of {} so far", kNames[kind], index, counts_[kind]));
         if (index <= largest_[kind]) return;
         largest_[kind] = index;
-        largestWhere_[kind] = where;
+        largestWhere_[kind] = word;
     }
 
-    SourceLocation where_{"", 0, 1};
+    ObjRemainder remainder_;
     ObjText result_;
     std::array<std::int64_t, 3> counts_{};
     // A face may name vertices further down, so the range is known only at the end.
     std::array<std::int64_t, 3> largest_{};
-    std::array<SourceLocation, 3> largestWhere_;
+    std::array<ObjWord, 3> largestWhere_;
 };
+
+/// Other files for meshes, which end up here under a wrong name or by mistake.
+std::string otherFormat(std::string_view text) {
+    constexpr std::array<std::array<std::string_view, 2>, 9> kFormats{{{"ply", "a PLY mesh"},
+                                                                       {"solid", "an STL mesh"},
+                                                                       {"OFF", "an OFF mesh"},
+                                                                       {"glTF", "a glTF scene"},
+                                                                       {"Kaydara FBX", "an FBX scene"},
+                                                                       {"BLENDER", "a Blender scene"},
+                                                                       {"#usda", "a USD scene"},
+                                                                       {"PXR-USDC", "a USD scene"},
+                                                                       {"\x1c\x04", "a Mitsuba \"serialized\" mesh"}}};
+    for (const auto& [magic, name] : kFormats)
+        if (text.starts_with(magic)) return fmt::format("{}: convert it", name);
+    if (text.starts_with("version https://git-lfs")) return "a Git LFS pointer: fetch the file that it stands for";
+    if (text.starts_with('<')) return "XML or HTML";
+    return whyNotUtf8(text);
+}
 
 }  // namespace
 
 ObjText checkObjText(std::string_view text, const std::string& file) {
+    if (const std::string other = otherFormat(text); !other.empty())
+        throw InputError(SourceLocation{file},
+                         fmt::format("an OBJ file is plain text (UTF-8) and needs faces (f); this is {}", other));
+    ObjStatements statements(text);
     ObjChecker checker(file);
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-        checker.checkLine(text.substr(0, end));
-        const bool pair = text.substr(end).starts_with("\r\n");
-        text.remove_prefix(std::min(end + (pair ? 2 : 1), text.size()));
-    }
+    for (std::vector<ObjWord> words; statements.next(words);) checker.check(words);
     return checker.finish();
 }
 

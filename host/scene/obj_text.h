@@ -8,18 +8,29 @@
 
 namespace parhelion {
 
-/// The geometry lines of an OBJ file (v, vn, vt, f), known to be well formed.
+/// The geometry of an OBJ file, known to be well formed.
 struct ObjText {
-    std::string geometry;
-    std::vector<SourceLocation> faces;  ///< of each f line
+    struct Place {
+        int line, column;
+    };
+
+    std::string file;
+    std::string geometry;            ///< the statements v, vn, vt and f, one a line, without comments
+    std::vector<Place> faces;        ///< of each f
+    std::vector<std::string> notes;  ///< located: what was left out
+
+    SourceLocation whereOfFace(std::size_t face) const { return {file, faces[face].line, faces[face].column}; }
 };
 
-/// Checks every geometry line of a Wavefront OBJ text: tinyobjloader would read damaged numbers as zeros. Groups,
-/// materials, lines, points and curves are left out.
+/// Checks every geometry statement of a Wavefront OBJ text: tinyobjloader would read damaged numbers as zeros, and
+/// knows neither comments behind numbers nor lines that go on in the next one. Numbers too small for a float become
+/// zero. Names, groups, materials and smoothing are left out; statements that hold geometry which is not read (lines,
+/// points, curves) or that are unknown, colours and weights of vertices, and the second and further materials are
+/// noted.
 ///
 /// @param file  for messages.
-/// @throws InputError at the first number that is missing, malformed or beyond float, at the first face with fewer
-/// than three corners or an index out of range, and for a file without faces.
+/// @throws InputError for a file that is no text, at the first number that is missing, malformed or beyond float, at
+/// the first face with fewer than three corners or an index out of range, and for a file without faces.
 ObjText checkObjText(std::string_view text, const std::string& file);
 
 }  // namespace parhelion

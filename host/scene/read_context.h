@@ -25,6 +25,11 @@ struct ReadContext {
     void note(const SourceLocation& where, std::string_view text) {
         scene.notes.push_back(fmt::format("{}: {}", where.text(), text));
     }
+
+    /// The same of several things that are located already.
+    void note(const std::vector<std::string>& located) {
+        scene.notes.insert(scene.notes.end(), located.begin(), located.end());
+    }
 };
 
 }  // namespace parhelion

@@ -9,7 +9,7 @@
 namespace parhelion {
 namespace {
 
-void readObj(PropertyReader& reader, ShapeDescription& shape) {
+void readObj(ReadContext& context, PropertyReader& reader, ShapeDescription& shape) {
     shape.type = ShapeDescription::Type::Mesh;
     shape.faceNormals = reader.boolean("face_normals", false);
     ObjOptions options;
@@ -18,6 +18,7 @@ void readObj(PropertyReader& reader, ShapeDescription& shape) {
     options.toWorld = shape.toWorld;
     const std::filesystem::path file = reader.file("filename");
     shape.mesh = readObjMesh(file, reader.whereOf("filename"), options);
+    context.note(shape.mesh.notes);
 }
 
 void readSphere(PropertyReader& reader, ShapeDescription& shape) {
@@ -28,11 +29,11 @@ void readSphere(PropertyReader& reader, ShapeDescription& shape) {
         reader.fail(reader.whereOf("to_world"), "\"to_world\" of a sphere must scale all axes alike and not shear");
 }
 
-void readGeometry(PropertyReader& reader, ShapeDescription& shape) {
+void readGeometry(ReadContext& context, PropertyReader& reader, ShapeDescription& shape) {
     shape.toWorld = reader.transform("to_world").matrix;
     shape.flipNormals = reader.boolean("flip_normals", false);
     if (reader.type() == "obj")
-        readObj(reader, shape);
+        readObj(context, reader, shape);
     else if (reader.type() == "sphere")
         readSphere(reader, shape);
     else if (reader.type() == "rectangle")
@@ -71,7 +72,7 @@ void readShape(ReadContext& context, const XmlElement& element) {
     ShapeDescription shape;
     shape.id = reader.id();
     shape.where = reader.where();
-    readGeometry(reader, shape);
+    readGeometry(context, reader, shape);
     readMedia(context, reader, shape);
     readSurface(context, reader, shape);
     reader.finish();

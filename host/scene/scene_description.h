@@ -22,6 +22,7 @@ struct Mesh {
     std::vector<glm::dvec3> normals;
     std::vector<glm::dvec2> uvs;  ///< empty or one a vertex
     std::vector<glm::uvec3> triangles;
+    std::vector<std::string> notes;  ///< located: what its file holds and is left out
 };
 
 enum class ReconstructionFilter { Box, Tent, Gaussian };

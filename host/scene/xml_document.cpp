@@ -6,6 +6,7 @@
 #include <pugixml.hpp>
 
 #include "base/files.h"
+#include "base/text_encoding.h"
 
 namespace parhelion {
 namespace {
@@ -88,11 +89,11 @@ private:
 };
 
 std::string readUtf8(const std::filesystem::path& file, const SourceLocation& where) {
-    std::string text = readTextFile(file, where);
-    if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-    if (text.find('\0') != std::string::npos)
-        throw InputError(SourceLocation{file.string()}, "not a text file; a scene is XML in UTF-8");
-    return text;
+    const std::string text = readTextFile(file, where);
+    if (const std::string reason = whyNotUtf8(text); !reason.empty())
+        throw InputError(SourceLocation{file.string()},
+                         fmt::format("not a text file; a scene is XML in UTF-8, and this is {}", reason));
+    return std::string(withoutByteOrderMark(text));
 }
 
 }  // namespace
