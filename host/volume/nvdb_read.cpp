@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "volume/grid_choice.h"
 #include "volume/nvdb_container.h"
 #include "volume/sparse_volume.h"
 
@@ -21,9 +22,10 @@ public:
     using Lower = typename nanovdb::NanoLower<BuildT>::DataType;
     using Leaf = typename nanovdb::NanoLeaf<BuildT>::DataType;
 
-    NanoTreeReader(std::span<const std::byte> grid, const NvdbGridEntry& entry, const SourceLocation& where)
+    NanoTreeReader(std::span<const std::byte> grid, const GridChoice& choice, const SourceLocation& where)
         : grid_(grid), where_(where) {
-        tree_.gridName = entry.name;
+        tree_.gridName = choice.label;
+        tree_.note = choice.note;
     }
 
     Volume read(const VolumeBytes& input);
@@ -184,20 +186,11 @@ std::string typeName(nanovdb::GridType type) {
     return type < nanovdb::GridType::End ? nanovdb::toStr(type) : fmt::format("type {}", std::uint32_t(type));
 }
 
-const NvdbGridEntry& chooseGrid(const std::vector<NvdbGridEntry>& entries, const VolumeBytes& input) {
-    const std::string& wanted = input.options.gridName;
-    const NvdbGridEntry* chosen = nullptr;
-    std::string found;
-    for (const NvdbGridEntry& entry : entries) {
-        found += fmt::format("{}\"{}\" ({})", found.empty() ? "" : ", ", entry.name, typeName(entry.type));
-        if (!isSupported(entry.type)) continue;
-        if (wanted.empty() ? !chosen || (entry.name == "density" && chosen->name != "density")
-                           : !chosen && entry.name == wanted)
-            chosen = &entry;
-    }
-    if (chosen) return *chosen;
-    throw InputError(input.where, fmt::format("must hold a grid{} of type float, Fp4, Fp8, Fp16 or FpN; got {}",
-                                              wanted.empty() ? "" : " \"" + wanted + "\"", found));
+GridChoice chooseEntry(const std::vector<NvdbGridEntry>& entries, const VolumeBytes& input) {
+    std::vector<NamedGrid> grids;
+    for (const NvdbGridEntry& entry : entries)
+        grids.push_back({entry.name, typeName(entry.type), isSupported(entry.type)});
+    return chooseGrid(grids, "float, Fp4, Fp8, Fp16 or FpN", input);
 }
 
 }  // namespace
@@ -205,7 +198,8 @@ const NvdbGridEntry& chooseGrid(const std::vector<NvdbGridEntry>& entries, const
 Volume readNanoVdbVolume(const VolumeBytes& input) {
     ByteReader reader(input.bytes, input.where);
     const std::vector<NvdbGridEntry> entries = readNvdbEntries(reader);
-    const NvdbGridEntry& entry = chooseGrid(entries, input);
+    const GridChoice choice = chooseEntry(entries, input);
+    const NvdbGridEntry& entry = entries[choice.index];
     checkMemory(input.where, entry.gridBytes, input.options.memoryLimitBytes);
     const std::vector<NvdbBlock> blocks = decodeNvdbGrid(entry, input.where);
     const std::span<const std::byte> grid(reinterpret_cast<const std::byte*>(blocks.data()), entry.gridBytes);
@@ -215,15 +209,15 @@ Volume readNanoVdbVolume(const VolumeBytes& input) {
         throw InputError(input.where, fmt::format("damaged: grid \"{}\" must have its metadata's type", entry.name));
     switch (entry.type) {
         case nanovdb::GridType::Fp4:
-            return NanoTreeReader<nanovdb::Fp4>(grid, entry, input.where).read(input);
+            return NanoTreeReader<nanovdb::Fp4>(grid, choice, input.where).read(input);
         case nanovdb::GridType::Fp8:
-            return NanoTreeReader<nanovdb::Fp8>(grid, entry, input.where).read(input);
+            return NanoTreeReader<nanovdb::Fp8>(grid, choice, input.where).read(input);
         case nanovdb::GridType::Fp16:
-            return NanoTreeReader<nanovdb::Fp16>(grid, entry, input.where).read(input);
+            return NanoTreeReader<nanovdb::Fp16>(grid, choice, input.where).read(input);
         case nanovdb::GridType::FpN:
-            return NanoTreeReader<nanovdb::FpN>(grid, entry, input.where).read(input);
+            return NanoTreeReader<nanovdb::FpN>(grid, choice, input.where).read(input);
         default:
-            return NanoTreeReader<float>(grid, entry, input.where).read(input);
+            return NanoTreeReader<float>(grid, choice, input.where).read(input);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "volume/sparse_volume.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <limits>
@@ -126,10 +127,13 @@ void SparseVolumeBuilder::addLeaf(const SparseTree::Leaf& leaf, const float* val
 
 Volume SparseVolumeBuilder::finish() {
     volume_.source = fmt::format("grid \"{}\"", tree_.gridName);
-    if (tree_.background != 0.0f) volume_.note = fmt::format("the background value {} was read as 0", tree_.background);
+    std::vector<std::string> notes;
+    if (!tree_.note.empty()) notes.push_back(tree_.note);
+    if (tree_.background != 0.0f)
+        notes.push_back(fmt::format("the background value {} was read as 0", tree_.background));
     if (inactiveNonZero_ > 0)
-        volume_.note += fmt::format("{}{} inactive voxels with other values than 0 were read as 0",
-                                    volume_.note.empty() ? "" : "; ", inactiveNonZero_);
+        notes.push_back(fmt::format("{} inactive voxels with other values than 0 were read as 0", inactiveNonZero_));
+    volume_.note = fmt::format("{}", fmt::join(notes, "; "));
     return std::move(volume_);
 }
 

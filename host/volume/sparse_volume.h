@@ -44,6 +44,7 @@ struct SparseTree {
     };
 
     std::string gridName;
+    std::string note;  ///< on the choice of the grid, or empty
     GridTransform transform;
     float background = 0;
     std::vector<Leaf> leaves;

@@ -39,7 +39,10 @@ void readMetadata(ByteReader& reader, const VisitMetadata& visit) {
 VdbGridEntry readDescriptor(ByteReader& reader, std::uint64_t fileSize) {
     VdbGridEntry entry;
     entry.name = readString(reader, "a grid name");
-    entry.name = entry.name.substr(0, entry.name.find(kNameSeparator));
+    if (const std::size_t separator = entry.name.find(kNameSeparator); separator != std::string::npos) {
+        entry.number = entry.name.substr(separator + 1);
+        entry.name.resize(separator);
+    }
     entry.type = readString(reader, "a grid type");
     if (entry.type.ends_with(kHalfSuffix)) {
         entry.isHalf = true;

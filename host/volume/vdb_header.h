@@ -12,7 +12,8 @@ namespace parhelion {
 /// One grid of a .vdb file, as its descriptor announces it.
 struct VdbGridEntry {
     std::string name;
-    std::string type;  ///< e.g. "Tree_float_5_4_3", without the suffix of half-float storage
+    std::string number;  ///< that tells it from others of the same name; empty if there are none
+    std::string type;    ///< e.g. "Tree_float_5_4_3", without the suffix of half-float storage
     bool isHalf = false;
     bool isInstance = false;  ///< shares the tree of another grid
     std::uint64_t begin = 0;  ///< byte range of the grid in the file

@@ -8,6 +8,7 @@
 #include <bit>
 #include <limits>
 
+#include "volume/grid_choice.h"
 #include "volume/sparse_volume.h"
 #include "volume/vdb_header.h"
 
@@ -176,23 +177,12 @@ void VdbTreeReader::decompress(std::span<const std::byte> chunk, std::span<std::
     if (!complete) reader_.fail("damaged: values cannot be decompressed");
 }
 
-const VdbGridEntry& chooseGrid(const std::vector<VdbGridEntry>& entries, const VolumeBytes& input) {
-    const auto isFloat = [](const VdbGridEntry& entry) { return entry.type == kFloatTree && !entry.isInstance; };
-    std::string found;
-    const VdbGridEntry* chosen = nullptr;
-    const std::string& wanted = input.options.gridName;
-    for (const VdbGridEntry& entry : entries) {
-        found += fmt::format("{}\"{}\" ({}{})", found.empty() ? "" : ", ", entry.name, entry.type,
-                             entry.isInstance ? ", instance" : "");
-        if (!isFloat(entry)) continue;
-        if (wanted.empty() ? !chosen || (entry.name == "density" && chosen->name != "density")
-                           : !chosen && entry.name == wanted)
-            chosen = &entry;
-    }
-    if (chosen) return *chosen;
-    throw InputError(input.where,
-                     fmt::format("must hold a grid{} of type {}; got {}", wanted.empty() ? "" : " \"" + wanted + "\"",
-                                 kFloatTree, found.empty() ? "none" : found));
+GridChoice chooseEntry(const std::vector<VdbGridEntry>& entries, const VolumeBytes& input) {
+    std::vector<NamedGrid> grids;
+    for (const VdbGridEntry& entry : entries)
+        grids.push_back({entry.name, entry.type + (entry.isInstance ? ", instance" : ""),
+                         entry.type == kFloatTree && !entry.isInstance, entry.number});
+    return chooseGrid(grids, kFloatTree, input);
 }
 
 }  // namespace
@@ -200,13 +190,15 @@ const VdbGridEntry& chooseGrid(const std::vector<VdbGridEntry>& entries, const V
 Volume readOpenVdbVolume(const VolumeBytes& input) {
     ByteReader header(input.bytes, input.where);
     const std::vector<VdbGridEntry> entries = readVdbHeader(header);
-    const VdbGridEntry& entry = chooseGrid(entries, input);
+    const GridChoice choice = chooseEntry(entries, input);
+    const VdbGridEntry& entry = entries[choice.index];
 
     ByteReader reader(input.bytes.first(entry.end), input.where);
     reader.take(entry.begin, "the grids before");
     const VdbGridHead head = readVdbGridHead(reader, entry);
     SparseTree tree;
-    tree.gridName = entry.name;
+    tree.gridName = choice.label;
+    tree.note = choice.note;
     tree.transform = head.transform;
     VdbTreeReader treeReader(reader, head);
     treeReader.readTopology(tree);

@@ -11,7 +11,9 @@ namespace parhelion {
 
 /// How to read a volume file.
 struct VolumeReadOptions {
-    std::string gridName;              ///< .vdb, .nvdb: grid to read; empty: "density", else the first float grid
+    /// .vdb, .nvdb: grid to read, "name" or, of several with one name, "name[1]"; empty: "density", else the first
+    /// float grid. Volume::note names the others that fit.
+    std::string gridName;
     SourceLocation gridNameWhere;      ///< blamed for a gridName that the format has no use for
     std::size_t memoryLimitBytes = 0;  ///< refuse larger grids before allocating; 0: half of the machine's memory
 };

@@ -157,24 +157,6 @@ TEST_F(VdbReader, RotatedShearedMirroredAndFrustumTransformsAreRefused) {
     }
 }
 
-TEST_F(VdbReader, ChoosesDensityElseTheFirstFloatGridElseTheNamedOne) {
-    const auto named = [](const std::string& name, float value) {
-        FloatGrid::Ptr grid = FloatGrid::create(0.0f);
-        grid->tree().setValue(Coord(0), value);
-        grid->setName(name);
-        return grid;
-    };
-    openvdb::Int32Grid::Ptr integers = openvdb::Int32Grid::create();
-    integers->setName("ids");
-    const openvdb::GridCPtrVec both{integers, named("heat", 1.0f), named("density", 2.0f), named("fuel", 3.0f)};
-    EXPECT_EQ(readVolume(write(both), {}).density.maximum(), 2.0f);
-    EXPECT_EQ(readVolume(write(both), {}, {"fuel"}).density.maximum(), 3.0f);
-    EXPECT_EQ(readVolume(write({integers, named("heat", 1.0f), named("fuel", 3.0f)}), {}).density.maximum(), 1.0f);
-    EXPECT_THROW(readVolume(write(both), {}, {"ids"}), InputError);
-    EXPECT_THROW(readVolume(write(both), {}, {"smoke"}), InputError);
-    EXPECT_THROW(readVolume(write({integers}), {}), InputError);
-}
-
 TEST_F(VdbReader, BackgroundAndInactiveValuesBecomeZeroWithANote) {
     FloatGrid::Ptr grid = FloatGrid::create(3.0f);
     grid->tree().setValue(Coord(0), 1.0f);
