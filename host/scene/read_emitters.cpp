@@ -66,10 +66,13 @@ void rejectSecondSurrounding(const ReadContext& context, const PropertyReader& r
                         fmt::format("only one emitter may surround the scene; the first is at {}", other.where.text()));
 }
 
-void readConstant(const ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
+void readConstant(ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
     rejectSecondSurrounding(context, reader);
     emitter.type = EmitterDescription::Type::Constant;
     emitter.value = readLight(reader, "radiance");
+    reader.transform("to_world");
+    if (reader.has("to_world"))
+        context.note(reader.whereOf("to_world"), "\"to_world\" has no effect: a constant is the same from all sides");
 }
 
 void readEnvironmentMap(ReadContext& context, PropertyReader& reader, EmitterDescription& emitter) {
@@ -139,6 +142,8 @@ void readAreaEmitter(ReadContext& context, const XmlElement& element, ShapeDescr
     shape.radiance = radiance.color;
     shape.radianceTexture = radiance.texture;
     shape.emitsOnBothSides = reader.boolean("two_sided", false);
+    if (reader.has("to_world"))
+        reader.fail(reader.whereOf("to_world"), "an area light is where its shape is; give the shape the \"to_world\"");
     readSamplingWeight(context, reader);
     readNamedMedium(context, reader);
     reader.finish();

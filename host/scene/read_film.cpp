@@ -43,6 +43,16 @@ void readCrop(PropertyReader& reader, FilmDescription& film) {
     film.cropSize = size;
 }
 
+/// Whether the filter reaches beyond the film.
+bool readBorder(ReadContext& context, PropertyReader& reader) {
+    constexpr const char* kOldName = "high_quality_edges";  // Mitsuba 2
+    if (reader.has(kOldName) && reader.has("sample_border"))
+        reader.fail(reader.whereOf(kOldName), "give either \"sample_border\" or its older name, not both");
+    if (reader.has(kOldName))
+        context.note(reader.whereOf(kOldName), fmt::format("\"{}\" was read as \"sample_border\"", kOldName));
+    return reader.boolean("sample_border", reader.boolean(kOldName, false));
+}
+
 }  // namespace
 
 void readFilm(ReadContext& context, const XmlElement& element) {
@@ -66,7 +76,7 @@ void readFilm(ReadContext& context, const XmlElement& element) {
     if (components != "float32" && reader.has("component_format"))
         context.note(reader.whereOf("component_format"),
                      fmt::format("\"component_format\" {}: float32 is written", components));
-    film.samplesBorder = reader.boolean("sample_border", false);
+    film.samplesBorder = readBorder(context, reader);
     if (reader.boolean("compensate", false))
         context.note(reader.whereOf("compensate"), "\"compensate\" has no effect: sums are always compensated");
     if (reader.accept("banner")) context.note(reader.whereOf("banner"), "\"banner\" has no effect");

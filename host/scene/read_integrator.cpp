@@ -5,21 +5,37 @@
 namespace parhelion {
 namespace {
 
+constexpr std::int64_t kMostSamples = 1'000'000;
+constexpr std::int64_t kDeepest = 1'000'000'000;
+constexpr std::int64_t kMostDepthLayers = IntegratorDescription::kMostDepthLayers;
+
+/// Accepts how Mitsuba's integrators divide their work, and when they give up (timeout: seconds, never unless > 0).
+void readExecution(ReadContext& context, PropertyReader& reader) {
+    for (const char* name : {"samples_per_pass", "block_size"})
+        if (reader.has(name)) {
+            reader.integer(name, 0, 0, kDeepest);
+            context.note(reader.whereOf(name), fmt::format("\"{}\" has no effect", name));
+        }
+    if (reader.number("timeout", -1.0) > 0.0)
+        context.note(reader.whereOf("timeout"),
+                     "\"timeout\" has no effect: rendering ends when all samples are taken (or by Ctrl-C)");
+}
+
 /// The integrator that renders: `element` itself, or what a "moment" holds.
-const XmlElement& unwrapMoment(const ReadContext& context, const XmlElement& element) {
+const XmlElement& unwrapMoment(ReadContext& context, const XmlElement& element) {
     if (element.require("type").value != "moment") return element;
     PropertyReader reader(context.tree, element);
     const auto inner = reader.onlyNested("integrator");
     if (!inner) reader.fail(element.where, "needs a nested <integrator>: direct, path, volpath or volpathmis");
     if (inner->element->require("type").value == "moment")
         reader.fail(inner->where, "cannot hold another \"moment\"; it takes direct, path, volpath or volpathmis");
+    readExecution(context, reader);
+    if (reader.boolean("hide_emitters", false))
+        context.note(reader.whereOf("hide_emitters"),
+                     "\"hide_emitters\" has no effect here, as in Mitsuba: the nested integrator's counts");
     reader.finish();
     return *inner->element;
 }
-
-constexpr std::int64_t kMostSamples = 1'000'000;
-constexpr std::int64_t kDeepest = 1'000'000'000;
-constexpr std::int64_t kMostDepthLayers = IntegratorDescription::kMostDepthLayers;
 
 /// What `strategy` and Mitsuba's three numbers of samples say; each way excludes the others.
 void readStrategy(ReadContext& context, PropertyReader& reader, IntegratorDescription& integrator) {
@@ -80,11 +96,7 @@ void readIntegrator(ReadContext& context, const XmlElement& element) {
     }
     if (reader.boolean("hide_emitters", false))
         reader.fail(reader.whereOf("hide_emitters"), "\"hide_emitters\" must be false; hiding lights is not supported");
-    for (const char* name : {"samples_per_pass", "block_size"})
-        if (reader.has(name)) {
-            reader.integer(name, 0, 0, kDeepest);
-            context.note(reader.whereOf(name), fmt::format("\"{}\" has no effect", name));
-        }
+    readExecution(context, reader);
     reader.finish();
 }
 

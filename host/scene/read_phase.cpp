@@ -23,6 +23,21 @@ void readDualLobes(PropertyReader& reader, PhaseDescription& phase) {
     phase.lobeWeight = requiredNumber(reader, "weight", kUnitInterval);
 }
 
+/// The weight of a blend: a number, or the constant volume that Mitsuba makes of one.
+double readBlendWeight(const ReadContext& context, PropertyReader& reader) {
+    const auto volume = reader.namedNested("weight", "volume");
+    if (!volume) return requiredNumber(reader, "weight", kUnitInterval);
+    PropertyReader constant(context.tree, *volume->element);
+    if (constant.type() != "constvolume")
+        reader.fail(volume->where,
+                    "\"weight\" cannot vary in space here; it takes a number or a <volume "
+                    "type=\"constvolume\"> of one");
+    constant.transform("to_world");  // Mitsuba looks the weight up without asking where
+    const double weight = requiredNumber(constant, "value", kUnitInterval);
+    constant.finish();
+    return weight;
+}
+
 /// Mitsuba's weight is that of the second function.
 void readBlend(const ReadContext& context, PropertyReader& reader, PhaseDescription& phase) {
     const auto nested = reader.nested("phase");
@@ -38,7 +53,7 @@ void readBlend(const ReadContext& context, PropertyReader& reader, PhaseDescript
     phase.type = Type::DualHenyeyGreenstein;
     phase.g = g[0];
     phase.g2 = g[1];
-    phase.lobeWeight = 1.0 - requiredNumber(reader, "weight", kUnitInterval);
+    phase.lobeWeight = 1.0 - readBlendWeight(context, reader);
 }
 
 void readTable(PropertyReader& reader, PhaseDescription& phase) {

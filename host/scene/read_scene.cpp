@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "scene/attribute_values.h"
 #include "scene/nori_scene.h"
 #include "scene/only_element.h"
 #include "scene/read_bsdf.h"
@@ -10,7 +13,9 @@
 #include "scene/read_textures.h"
 #include "scene/read_volumes.h"
 #include "scene/scene_description.h"
+#include "scene/scene_grammar.h"
 #include "scene/scene_tree.h"
+#include "scene/suggestions.h"
 
 namespace parhelion {
 namespace {
@@ -55,6 +60,17 @@ void checkSharedObjects(ReadContext& context, const std::vector<const XmlElement
     }
 }
 
+/// Accepts what the scene itself says on how Mitsuba intersects rays with it.
+void readSceneProperty(ReadContext& context, const XmlElement& element) {
+    const std::vector<std::string> known{"embree_use_robust_intersections", "allow_thread_reordering"};
+    const XmlAttribute& name = element.require("name");
+    if (std::ranges::find(known, name.value) == known.end())
+        throw InputError(element.where,
+                         fmt::format("the scene has no property \"{}\"{}", name.value, suggest(name.value, known)));
+    parseBoolean(element.require("value"));
+    context.note(element.where, fmt::format("\"{}\" has no effect", name.value));
+}
+
 void readObjects(ReadContext& context, const XmlElement& root) {
     OnlyElement integrator("integrator"), sensor("sensor");
     std::vector<const XmlElement*> shared;
@@ -67,6 +83,8 @@ void readObjects(ReadContext& context, const XmlElement& root) {
             readEmitter(context, element);
         else if (element.tag == "shape")
             readShape(context, element);
+        else if (isPropertyTag(element.tag))
+            readSceneProperty(context, element);
         else
             shared.push_back(&element);
     }

@@ -49,6 +49,18 @@ void readShutter(ReadContext& context, PropertyReader& reader) {
             context.note(reader.whereOf(name), fmt::format("\"{}\" has no effect: nothing moves", name));
 }
 
+/// Accepts the distance that a lens would be focused at, and refuses a film that is not sensitive to red, green, blue.
+void readOptics(ReadContext& context, PropertyReader& reader) {
+    reader.number("focus_distance", 0.0);
+    if (reader.has("focus_distance"))
+        context.note(reader.whereOf("focus_distance"),
+                     "\"focus_distance\" has no effect: a pinhole camera is sharp at every distance");
+    if (reader.has("srf"))
+        reader.fail(reader.whereOf("srf"),
+                    "\"srf\", a spectral response, needs a spectral renderer; this one renders red, green and blue, "
+                    "where Mitsuba refuses it too");
+}
+
 void readSampler(ReadContext& context, const XmlElement& element) {
     PropertyReader reader(context.tree, element);
     const std::vector<std::string> supported{"independent", "stratified", "multijitter", "orthogonal", "ldsampler"};
@@ -89,8 +101,9 @@ void readClipping(ReadContext& context, PropertyReader& reader, const char* near
             fmt::format("\"{}\" must be less than \"{}\"; got {} and {}", nearName, farName, nearClip, farClip));
     for (const char* name : {nearName, farName})
         if (reader.has(name))
-            context.note(reader.whereOf(name),
-                         fmt::format("\"{}\" has no effect: rays start at the camera and have no end", name));
+            context.note(reader.whereOf(name), fmt::format("\"{}\" has no effect: rays start at the camera and have no "
+                                                           "end, so that nothing is cut off",
+                                                           name));
 }
 
 void readSensor(ReadContext& context, const XmlElement& element) {
@@ -112,6 +125,7 @@ void readSensor(ReadContext& context, const XmlElement& element) {
             reader.number(axis == 0 ? "principal_point_offset_x" : "principal_point_offset_y", 0.0, kAnyNumber);
     readClipping(context, reader, "near_clip", "far_clip");
     readShutter(context, reader);
+    readOptics(context, reader);
     reader.finish();
 }
 

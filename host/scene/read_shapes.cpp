@@ -29,6 +29,20 @@ void readSphere(PropertyReader& reader, ShapeDescription& shape) {
         reader.fail(reader.whereOf("to_world"), "\"to_world\" of a sphere must scale all axes alike and not shear");
 }
 
+/// Accepts what changes no picture: normals of the faces where there are no others, and a weight of Mitsuba's
+/// derivatives.
+void readWithoutEffect(ReadContext& context, PropertyReader& reader) {
+    const bool isFlat = reader.type() == "rectangle" || reader.type() == "cube";
+    if (isFlat && reader.has("face_normals")) {
+        reader.boolean("face_normals", false);
+        context.note(reader.whereOf("face_normals"), "\"face_normals\" has no effect: the faces are flat anyway");
+    }
+    reader.number("silhouette_sampling_weight", 1.0);
+    if (reader.has("silhouette_sampling_weight"))
+        context.note(reader.whereOf("silhouette_sampling_weight"),
+                     "\"silhouette_sampling_weight\" has no effect: it only steers Mitsuba's derivatives");
+}
+
 void readGeometry(ReadContext& context, PropertyReader& reader, ShapeDescription& shape) {
     shape.toWorld = reader.transform("to_world").matrix;
     shape.flipNormals = reader.boolean("flip_normals", false);
@@ -42,6 +56,7 @@ void readGeometry(ReadContext& context, PropertyReader& reader, ShapeDescription
         shape.type = ShapeDescription::Type::Cube;
     else
         reader.rejectType({"obj", "rectangle", "cube", "sphere"});
+    readWithoutEffect(context, reader);
 }
 
 void readMedia(ReadContext& context, PropertyReader& reader, ShapeDescription& shape) {

@@ -27,9 +27,28 @@ glm::dmat4 boundsTransform(const PropertyReader& reader, const Volume& volume) {
     return glm::scale(glm::translate(glm::dmat4(1.0), volume.boundsMin), extent);
 }
 
-GridPlacement readGrid(ReadContext& context, PropertyReader& reader, VolumeRole role) {
+/// How Mitsuba looks values up between voxels, and outside of the grid. A medium ends with the grid of its extinction,
+/// within which mirroring at the edge is the same as clamping to it: both continue the outermost voxel.
+void readLookup(ReadContext& context, PropertyReader& reader, VolumeRole role) {
+    const auto given = [&reader](const char* name, std::string_view value) {
+        const XmlAttribute* text = reader.text(name);
+        return text && text->value == value;
+    };
+    const auto refuse = [&reader](const char* name, std::string_view value, std::string_view reason) {
+        reader.fail(reader.whereOf(name), fmt::format("\"{}\" cannot be \"{}\": {}", name, value, reason));
+    };
+    if (given("filter_type", "nearest"))
+        refuse("filter_type", "nearest", "values are always interpolated here; allowed: trilinear");
     reader.choice("filter_type", "trilinear", {"trilinear"});
-    reader.choice("wrap_mode", "clamp", {"clamp"});
+    for (const char* wrap : {"repeat", "mirror"})
+        if (given("wrap_mode", wrap) && (wrap[0] == 'r' || role == VolumeRole::Albedo))
+            refuse("wrap_mode", wrap, "grids are not continued outside of their box here; allowed: clamp");
+    if (reader.choice("wrap_mode", "clamp", {"clamp", "mirror"}) == "mirror")
+        context.note(reader.whereOf("wrap_mode"), "\"wrap_mode\" mirror has no effect: the medium ends with the grid");
+}
+
+GridPlacement readGrid(ReadContext& context, PropertyReader& reader, VolumeRole role) {
+    readLookup(context, reader, role);
     // Both concern Mitsuba's spectral upsampling and texture units: they change nothing about an RGB image.
     reader.boolean("raw", false);
     reader.boolean("accel", true);

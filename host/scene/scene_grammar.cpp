@@ -61,6 +61,7 @@ bool mayStandIn(const TagRule& child, const TagRule* parent) {
         case Kind::Object:
             return parent->kind == Kind::Scene || parent->kind == Kind::Object;
         case Kind::Value:
+            return parent->kind == Kind::Object || (parent->kind == Kind::Scene && child.tag == "boolean");
         case Kind::Transform:
         case Kind::Reference:
             return parent->kind == Kind::Object;

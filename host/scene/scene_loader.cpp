@@ -184,6 +184,8 @@ void SceneLoader::splice(XmlElement& source, const XmlElement& include, XmlEleme
     checkElement(source, "");
     for (XmlElement& child : source.children) {
         checkElement(child, source.tag);
+        if (isPropertyTag(child.tag) && target.tag != "scene")
+            throw InputError(child.where, fmt::format("a property of a scene is not one of <{}>", target.tag));
         if (!isDirective(child)) checkElement(child, target.tag);
         loadCheckedChild(child, target);
     }

@@ -92,6 +92,10 @@ std::vector<BadText> badIncludes() {
          sphereOf("<include filename=\"b.xml\"/>"),
          {"<float> is not allowed inside <scene>"},
          {{"b.xml", "<scene version=\"3.0.0\">@@<float name=\"radius\" value=\"2\"/></scene>"}}},
+        {"SwitchInAnIncludedScene",
+         sphereOf("<include filename=\"b.xml\"/>"),
+         {"not one of <shape>"},
+         {{"b.xml", "<scene version=\"3.0.0\">@@<boolean name=\"flip_normals\" value=\"true\"/></scene>"}}},
         {"PathIsNoFolder", sceneOf("<path value=\"@@no/such\"/>"), {"must name a folder"}},
     };
 }
