@@ -35,7 +35,7 @@ struct CloudBakeReport {
     double meanDensity = 0;
     double occupancy = 0;  ///< fraction of the voxels that are not empty
     double massRatio = 1;  ///< modulates: mass after over before
-    std::optional<CloudBakeError> error;
+    std::optional<CloudBakeError> error = std::nullopt;
 };
 
 struct CloudBakeOptions {
