@@ -226,7 +226,7 @@ class Checks(unittest.TestCase):
             command = [sys.executable, TOOLS / "programs_of.py", *options]
             return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
         self.assertEqual(programs("-R", "^VdbWriter"), ["parhelion", "unit_tests"])
-        self.assertEqual(programs("--tests-regex=OnBothBackEnds/Slabs.Absorb"), ["parhelion", "statistical_tests"])
+        self.assertEqual(programs("--tests-regex=OnTheDevice/Slabs.Absorb"), ["parhelion", "statistical_tests"])
         self.assertEqual(programs("-L", "parity"), ["parhelion", "parity_tests"])
         self.assertEqual(programs("-RStructure"), ["parhelion"])
         self.assertEqual(programs("--label-exclude", "nightly", "-R", "SlabTable"), [])
@@ -235,11 +235,11 @@ class Checks(unittest.TestCase):
     def test_dearest_tests_come_with_what_they_prove(self):
         times = self.root / "times.xml"
         times.write_text("""<testsuite><testcase name="Validation.PassesWhatIsRight" time="2.5"/>
-            <testcase name="OnBothBackEnds/Slabs.AbsorbByBeersLaw/Vulkan" time="3.25"/></testsuite>""")
+            <testcase name="OnTheDevice/Slabs.AbsorbByBeersLaw/Vulkan" time="3.25"/></testsuite>""")
         command = [sys.executable, TOOLS / "dearest_tests.py", times]
         lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip().split("\n")
         self.assertIn("2 tests, which took 6 s", lines[0])
-        self.assertIn("3.2 s  OnBothBackEnds/Slabs.AbsorbByBeersLaw/Vulkan: absorb by beers law", lines[1])
+        self.assertIn("3.2 s  OnTheDevice/Slabs.AbsorbByBeersLaw/Vulkan: absorb by beers law", lines[1])
         self.assertIn("passes what is right", lines[2])
 
     def test_functions_are_told_from_what_looks_like_them(self):

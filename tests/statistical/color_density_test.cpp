@@ -152,8 +152,8 @@ TEST_P(ColorDensity, PermutedChannelsPermuteTheImage) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, ColorDensity, testing::ValuesIn(kBackends),
-                         [](const auto& info) { return name(info.param); });
+INSTANTIATE_TEST_SUITE_P(OnTheDevice, ColorDensity, testing::Values(Backend::Vulkan));
+INSTANTIATE_TEST_SUITE_P(NightlyOnTheReference, ColorDensity, testing::Values(Backend::Reference));
 
 }  // namespace
 }  // namespace parhelion

@@ -96,12 +96,11 @@ TEST_P(Coplanar, MediaLoseNothingToTheFloorTheyStandOn) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    OnBothBackEnds, Coplanar, testing::Combine(testing::ValuesIn(kBackends), testing::Values(1e-3, 1.0, 1e3)),
-    [](const auto& info) {
-        const double scale = std::get<1>(info.param);
-        return std::string(name(std::get<0>(info.param))) + (scale < 1 ? "Small" : scale > 1 ? "Large" : "Unit");
-    });
+constexpr double kScales[] = {1e-3, 1.0, 1e3};
+INSTANTIATE_TEST_SUITE_P(OnTheDevice, Coplanar,
+                         testing::Combine(testing::Values(Backend::Vulkan), testing::ValuesIn(kScales)));
+INSTANTIATE_TEST_SUITE_P(NightlyOnTheReference, Coplanar,
+                         testing::Combine(testing::Values(Backend::Reference), testing::ValuesIn(kScales)));
 
 }  // namespace
 }  // namespace parhelion

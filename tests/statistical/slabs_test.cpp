@@ -127,8 +127,8 @@ TEST_P(Slabs, AbsorbByBeersLaw) {
     scores.expectNoCommonBias(0.004, "Beer's law");
 }
 
-INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, Slabs, testing::ValuesIn(kBackends),
-                         [](const auto& info) { return name(info.param); });
+INSTANTIATE_TEST_SUITE_P(OnTheDevice, Slabs, testing::Values(Backend::Vulkan));
+INSTANTIATE_TEST_SUITE_P(NightlyOnTheReference, Slabs, testing::Values(Backend::Reference));
 
 }  // namespace
 }  // namespace parhelion

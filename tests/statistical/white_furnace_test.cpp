@@ -42,8 +42,8 @@ TEST_P(WhiteFurnace, DeepChromaticPathsKeepTheirWeight) {
     expectWhiteOnAverage(GetParam(), {.tau = 400, .size = 16, .red = 0.05}, 1050, 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(OnBothBackEnds, WhiteFurnace, testing::ValuesIn(kBackends),
-                         [](const auto& info) { return name(info.param); });
+INSTANTIATE_TEST_SUITE_P(OnTheDevice, WhiteFurnace, testing::Values(Backend::Vulkan));
+INSTANTIATE_TEST_SUITE_P(NightlyOnTheReference, WhiteFurnace, testing::Values(Backend::Reference));
 
 }  // namespace
 }  // namespace parhelion
