@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gpu/device_internals.h"
+#include "support/paths.h"
 
 namespace parhelion::test {
 namespace {
@@ -50,7 +51,7 @@ struct ProbeArguments {
 constexpr std::uint32_t kProbeFunction = 255, kProbeArguments = 29, kProbeInputs = 30, kProbeOutputs = 31;
 constexpr std::uint32_t kProbeGroup = 64;
 
-std::filesystem::path testFolder() { return std::filesystem::path(__FILE__).parent_path().parent_path(); }
+std::filesystem::path testFolder() { return std::filesystem::path(projectFolder()) / "tests"; }
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include "render/renderer.h"
 #include "scene/scene_description.h"
 #include "support/gpu_fixture.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace parhelion::test {
@@ -24,11 +25,7 @@ std::size_t countDifferent(std::span<const Pixel> a, std::span<const Pixel> b) {
 
 }  // namespace
 
-std::filesystem::path sceneFolder() {
-    // Absolute, for scenes that are written elsewhere: a compiler cache may have made __FILE__ relative.
-    return std::filesystem::absolute(std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() /
-                                     "scenes");
-}
+std::filesystem::path sceneFolder() { return std::filesystem::path(projectFolder()) / "scenes"; }
 
 std::vector<std::filesystem::path> sceneFiles() {
     std::vector<std::filesystem::path> files;
