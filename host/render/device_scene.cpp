@@ -3,7 +3,21 @@
 #include <algorithm>
 #include <cstring>
 
+#include "compile/boundary_order.h"
+
 namespace parhelion::render {
+namespace {
+
+/// Adds the numbers of boundaries to all copies of their flags.
+void addOrder(std::span<const std::uint32_t> order, shared::SceneConstants& constants) {
+    for (std::uint32_t i = 0; i < constants.sphereCount; ++i)
+        constants.spheres[i].flags |= order[constants.spheres[i].shape];
+    for (std::uint32_t i = 0; i < constants.boxCount; ++i) constants.boxes[i].flags |= order[constants.boxes[i].shape];
+    const std::size_t inlined = std::min<std::size_t>(order.size(), shared::kMaxInlineShapes);
+    for (std::size_t i = 0; i < inlined; ++i) constants.shapes[i].flags |= order[i];
+}
+
+}  // namespace
 
 template <typename T>
 void DeviceScene::addTexels(gpu::Device& device, std::uint32_t binding, const std::vector<T>& values, VkFormat format) {
@@ -18,11 +32,15 @@ void DeviceScene::addTexels(gpu::Device& device, std::uint32_t binding, const st
 DeviceScene::DeviceScene(gpu::Device& device, const CompiledScene& scene) {
     gpu::Buffer constants = device.createBuffer(sizeof(shared::SceneConstants));
     std::memcpy(constants.data(), &scene.constants, sizeof(shared::SceneConstants));
+    const std::vector<std::uint32_t> order = orderBoundaries(scene);
+    std::vector<shared::Shape> shapes = scene.shapes;
+    for (std::size_t i = 0; i < shapes.size(); ++i) shapes[i].flags |= order[i];
+    addOrder(order, *static_cast<shared::SceneConstants*>(constants.data()));
     bindings_.push_back({.index = 0, .buffer = constants.handle()});
     buffers_.push_back(std::move(constants));
 
     const VkFormat rgba = VK_FORMAT_R32G32B32A32_SFLOAT, r = VK_FORMAT_R32_SFLOAT, u = VK_FORMAT_R32_UINT;
-    addTexels(device, 1, scene.shapes, rgba);
+    addTexels(device, 1, shapes, rgba);
     addTexels(device, 2, scene.bvhNodes, rgba);
     addTexels(device, 3, scene.triangles, rgba);
     addTexels(device, 4, scene.vertexNormals, rgba);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kGroup = 64;  // local_size_x of the kernels
 constexpr std::uint32_t kFeatureLanes = 1u << 18;
-constexpr std::uint32_t kMaximumCrossings = 256;  // medium boundaries in front of the first opaque surface
+constexpr std::uint32_t kMaximumCrossings = 8192;  // medium boundaries in front of the first opaque surface
 
 std::uint32_t groupsCovering(std::uint32_t lanes) { return (lanes + kGroup - 1) / kGroup; }
 

@@ -31,16 +31,10 @@ void hitLeaf(inout Hit best, Ray ray, RayShear shear, int leaf, uint firstPrimit
     for (uint i = 0u; i < count; ++i) {
         uint triangle = first + i;
         int texel = int(kTriangleTexels * triangle);
-        vec4 v0 = texelFetch(triangleTexels, texel);
-        bool isNull = (shapeAt(floatBitsToUint(v0.w)).flags & kShapeNull) != 0u;
-        vec3 hit = intersectTriangle(ray.origin, shear, v0.xyz,
+        vec4 hit = intersectTriangle(ray.origin, shear, texelFetch(triangleTexels, texel).xyz,
                                      texelFetch(triangleTexels, texel + 1).xyz,
-                                     texelFetch(triangleTexels, texel + 2).xyz);
-        uint primitive = firstPrimitive + triangle;
-        // A null triangle is crossed once; an opaque one may lie where the ray just left a medium.
-        bool inRange = hit.x > ray.tMin || (hit.x == ray.tMin && !isNull);
-        if (inRange && hit.x < ray.tMax && primitive != ray.last && primitive != ray.target)
-            keepNearer(best, Hit(hit.x, primitive, hit.yz, false));
+                                     texelFetch(triangleTexels, texel + 2).xyz, max(ray.slack, 0.0));
+        hitFlat(best, ray, hit.x, hit.w, firstPrimitive + triangle, hit.yz);
     }
 }
 

@@ -18,6 +18,13 @@ float intersectQuad(Quad quad, vec3 origin, vec3 direction) {
     return inside ? t : -1.0;
 }
 
+// Bound of the error of intersectQuad's t, where the origin itself is uncertain by `slack`: 5 roundings of the distance
+// from the plane, over the cosine.
+float quadDistanceError(Quad quad, vec3 origin, vec3 direction, float slack) {
+    float depth = 2.98023224e-7 * dot(abs(quad.normal), abs(quad.corner - origin)) + slack;
+    return depth / abs(dot(direction, quad.normal));
+}
+
 // Entry and exit distance, either sign; kEmptyInterval where the line misses. The discriminant comes
 // from the perpendicular component, which does not cancel for distant spheres (PBR4 6.8.2).
 vec2 sphereInterval(vec3 center, float radius, vec3 origin, vec3 direction) {

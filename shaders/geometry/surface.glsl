@@ -11,10 +11,20 @@ struct Surface {
     vec3 position;
     vec3 geometricNormal;  // unit, front side
     vec3 shadingNormal;    // unit
-    vec3 offset;           // along the geometric normal: bound of the position's rounding error
+    float offset;          // by which rays leave it along the geometric normal: bound of the position's rounding error
     uint shape;
     vec2 uv;               // for textures; 0 where the scene has none
+    vec3 corner;           // quads and triangles: corner + edgeU, corner + edgeV are corners as well
+    vec3 edgeU, edgeV;
+    float slack;           // quads and triangles: how far a ray's start may lie off it; negative: others
+    vec3 edge;             // unit, along the edge that the position is next to; 0: next to none
+    vec3 inward;           // from there to the middle
 };
+
+// What counts as next to an edge, as a share of the primitive, and as one of its longest edge (slivers).
+const float kNextToEdge = 0.0009765625;
+const float kEdgeWidth = 6.103515625e-5;
+const float kPositionError = 4.2e-7;  // 7 roundings of 2^-24
 
 const bool hasSurfaceUvs = hasTextures || hasTexturedLights;
 
@@ -29,8 +39,16 @@ Surface triangleSurface(uint index, vec2 uv) {
     int texel = int(kTriangleTexels * index);
     vec4 a = texelFetch(triangleTexels, texel);
     vec3 b = texelFetch(triangleTexels, texel + 1).xyz, c = texelFetch(triangleTexels, texel + 2).xyz;
-    float first = 1.0 - uv.x - uv.y;
-    vec3 normal = normalize(cross(b - a.xyz, c - a.xyz));
+    vec3 u = b - a.xyz, v = c - a.xyz, doubled = cross(u, v);
+    float first = 1.0 - uv.x - uv.y, least = min(first, min(uv.x, uv.y));
+    float longest = sqrt(max(dot(u, u), max(dot(v, v), dot(u - v, u - v)))), height = length(doubled) / longest;
+    bool isNext = least < kNextToEdge || least * height < kEdgeWidth * longest;
+    vec3 edge = normalize(least == first ? v - u : least == uv.x ? v : u);
+    vec3 spread = abs(first * a.xyz) + abs(uv.x * b) + abs(uv.y * c);
+    float lateral = kPositionError * (maxComponent(spread) + longest);
+    if (least * height < lateral) uv += min(0.5, 3.0 * lateral / height) * (1.0 / 3.0 - uv);
+    first = 1.0 - uv.x - uv.y;
+    vec3 normal = normalize(doubled);
     vec3 shading = normal;
     if (hasVertexNormals) {
         vec3 sum = texelFetch(vertexNormalTexels, texel).xyz * first +
@@ -39,10 +57,12 @@ Surface triangleSurface(uint index, vec2 uv) {
         float square = dot(sum, sum);
         shading = square > 0.0 ? sum * inversesqrt(square) : normal;  // all zero: a flat triangle (H53)
     }
-    vec3 error = 4.2e-7 * (abs(first * a.xyz) + abs(uv.x * b) + abs(uv.y * c));  // 7 roundings of 2^-24
-    return Surface(a.xyz * first + b * uv.x + c * uv.y, normal, shading,
-                   normal * (dot(abs(normal), error)), floatBitsToUint(a.w),
-                   hasSurfaceUvs ? triangleUv(index, uv) : vec2(0.0));
+    vec3 error = kPositionError * (abs(first * a.xyz) + abs(uv.x * b) + abs(uv.y * c));
+    float offset = dot(abs(normal), error);
+    vec3 inward = (1.0 / 3.0 - uv.x) * u + (1.0 / 3.0 - uv.y) * v;
+    return Surface(a.xyz * first + b * uv.x + c * uv.y, normal, shading, offset, floatBitsToUint(a.w),
+                   hasSurfaceUvs ? triangleUv(index, uv) : vec2(0.0), a.xyz, u, v, 2.0 * offset, isNext ? edge : vec3(0.0),
+                   inward);
 }
 
 // Box: the face whose local coordinate is largest; its gradient is the world normal.
@@ -78,28 +98,43 @@ vec2 quadUv(Quad quad, vec3 position) {
 
 // Shader only: within surfaceAt in the reference.
 Surface quadSurface(Quad quad, vec3 position) {
-    vec2 uv = hasSurfaceUvs ? quadUv(quad, position) : vec2(0.0);
-    return Surface(position, quad.normal, quad.normal, vec3(0.0), quad.shape, uv);
+    vec2 uv = quadUv(quad, position), rest = min(uv, 1.0 - uv);
+    bool isNext = min(rest.x, rest.y) < kNextToEdge;
+    vec3 edge = isNext ? normalize(rest.x < rest.y ? quad.edgeV : quad.edgeU) : vec3(0.0);
+    vec2 lengths = vec2(length(quad.edgeU), length(quad.edgeV)), size = kPositionError * (maxComponent(abs(position)) + lengths);
+    vec2 middle = mix(vec2(0.0), min(vec2(0.5), size / lengths), lessThan(rest * lengths, size)) * (0.5 - uv);
+    position += middle.x * quad.edgeU + middle.y * quad.edgeV;
+    vec3 inward = (0.5 - uv.x) * quad.edgeU + (0.5 - uv.y) * quad.edgeV;
+    vec3 p = position - quad.corner;
+    float slack = abs(dot(quad.normal, p)) + 2.98023224e-7 * dot(abs(quad.normal), abs(p));  // 5 roundings
+    return Surface(position, quad.normal, quad.normal, 0.0, quad.shape, uv, quad.corner, quad.edgeU, quad.edgeV, slack,
+                   edge, inward);
+}
+
+// Shader only: the reference's members have defaults.
+Surface roundSurface(vec3 position, vec3 normal, uint shape, vec2 uv) {
+    return Surface(position, normal, normal, 0.0, shape, uv, vec3(0.0), vec3(0.0), vec3(0.0), -1.0, vec3(0.0),
+                   vec3(0.0));
 }
 
 Surface sphereSurface(Sphere s, vec3 position) {
     vec3 n = normalize(position - s.center);
     vec3 front = (s.flags & kShapeFlipNormal) != 0u ? -n : n;
     vec2 uv = hasSurfaceUvs ? sphereUv(s, n) : vec2(0.0);
-    return Surface(s.center + n * s.radius, front, front, vec3(0.0), s.shape, uv);
+    return roundSurface(s.center + n * s.radius, front, s.shape, uv);
 }
 
 Surface boxSurface(Box b, vec3 position) {
     vec3 n = boxNormal(b, position);
     vec3 front = (b.flags & kShapeFlipNormal) != 0u ? -n : n;
     vec2 uv = hasSurfaceUvs ? boxUv(b, position) : vec2(0.0);
-    return Surface(position, front, front, vec3(0.0), b.shape, uv);
+    return roundSurface(position, front, b.shape, uv);
 }
 
 // The primitive is picked by comparison: that costs less than a gather.
 Surface surfaceAt(Ray ray, Hit hit) {
     vec3 position = ray.origin + ray.direction * hit.t;
-    Surface surface = Surface(position, vec3(0.0), vec3(0.0), vec3(0.0), 0u, vec2(0.0));
+    Surface surface = roundSurface(position, vec3(0.0), 0u, vec2(0.0));
 #define PICK_QUAD(i) \
     if (hit.primitive == i) surface = quadSurface(nearQuads[i], position);
 #define PICK_FAR_QUAD(i) \

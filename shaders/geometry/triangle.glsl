@@ -22,9 +22,17 @@ RayShear rayShear(vec3 d) {
     return RayShear(ivec3(x, y, z), vec3(d[x] / d[z], d[y] / d[z], 1.0 / d[z]));
 }
 
-// (t, b1, b2) of the hit, barycentrics of the second and third vertex; t < 0 where there is none.
-// Both sides count. Edges belong to both of their triangles: no ray slips between them (H47).
-vec3 intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2) {
+// Bound of the error of t where no coordinate of the vertices, sheared and seen from the origin, is above `size`, no edge
+// function above `largest`, and the origin itself is uncertain by `slack` (PBR4 6.8.7 with one size for all three axes).
+float distanceError(float size, float largest, float determinant, float scaleZ, float slack) {
+    const float e = 5.9604645e-8;  // 2^-24
+    float edge = size * (44.0 * e * size + 8.0 * slack);
+    return 3.0 * (size * edge + largest * (6.0 * e * size + slack)) * abs(scaleZ / determinant);
+}
+
+// (t, b1, b2, error of t) of the hit, barycentrics of the second and third vertex; t < 0 without error where there is
+// none. Both sides count. Edges belong to both of their triangles: no ray slips between them (H47).
+vec4 intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2, float slack) {
     vec3 a = v0 - origin, b = v1 - origin, c = v2 - origin;
     float ax = a[s.axes.x] - s.shear.x * a[s.axes.z], ay = a[s.axes.y] - s.shear.y * a[s.axes.z];
     float bx = b[s.axes.x] - s.shear.x * b[s.axes.z], by = b[s.axes.y] - s.shear.y * b[s.axes.z];
@@ -35,7 +43,11 @@ vec3 intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2) {
     bool outside = min(u, min(v, w)) < 0.0 && max(u, max(v, w)) > 0.0;
     float determinant = u + v + w;
     float t = s.shear.z * (u * a[s.axes.z] + v * b[s.axes.z] + w * c[s.axes.z]) / determinant;
-    return outside || determinant == 0.0 ? vec3(-1.0) : vec3(t, v / determinant, w / determinant);
+    vec3 sizes = max(max(abs(vec3(ax, bx, cx)), abs(vec3(ay, by, cy))),
+                     abs(vec3(a[s.axes.z], b[s.axes.z], c[s.axes.z])));
+    float error = distanceError(max(sizes.x, max(sizes.y, sizes.z)), max(abs(u), max(abs(v), abs(w))), determinant,
+                                s.shear.z, slack);
+    return outside || determinant == 0.0 ? vec4(-1.0, -1.0, -1.0, 0.0) : vec4(t, v / determinant, w / determinant, error);
 }
 
 #endif

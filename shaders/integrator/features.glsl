@@ -11,7 +11,7 @@
 // Adds one camera ray. Boundaries crossed are bounded by `crossings`; false when it or a traversal cut
 // the ray short.
 bool addFeature(inout FeaturePixel pixel, uvec2 film, vec2 u, inout uint tests, uint crossings) {
-    Ray ray = Ray(vec3(0.0), 0.0, cameraDirection(filmPosition(film, u)), kInfinity, kNone, kNone, camera.inside);
+    Ray ray = newRay(vec3(0.0), cameraDirection(filmPosition(film, u)), kInfinity, kNone, kNone, camera.inside, -1.0);
     bool ok = true, crossing = true;
     for (uint i = 0u; i < crossings && crossing; ++i) {
         Hit hit = closestHit(ray, true, tests, ok);
@@ -21,8 +21,7 @@ bool addFeature(inout FeaturePixel pixel, uvec2 film, vec2 u, inout uint tests, 
             Shape shape = shapeAt(surface.shape);
             crossing = (shape.flags & kShapeNull) != 0u;
             if (crossing) {
-                ray.inside = crossBoundary(ray, hit, surface.shape, shape.exterior, surface.geometricNormal);
-                ray.tMin = hit.t;
+                crossBoundary(ray, hit, surface.shape, shape.exterior, surface.geometricNormal);
             } else {
                 pixel.albedo += reflectanceAt(shape, surface.uv);
                 pixel.normal += surface.shadingNormal;

@@ -3,6 +3,7 @@
 #ifndef INTEGRATOR_PATH_STATE_GLSL
 #define INTEGRATOR_PATH_STATE_GLSL
 
+#include "geometry/flat.glsl"
 #include "geometry/ray.glsl"
 #include "volume/tracking.glsl"
 
@@ -21,8 +22,10 @@ struct Path {
     uvec2 nextExponential; // words of its first exponential
     vec3 vertexPosition;
     uint vertexInside;
-    vec3 vertexOffset;
     uint vertexLast;
+    Start vertexStart;     // as in Surface, for rays that leave it
+    float vertexOffset;
+    float vertexSlack;
 };
 
 layout(set = 0, binding = 13, scalar) buffer PathStates { uint pathStates[]; };
@@ -67,6 +70,10 @@ void saveRay(inout uint at, uint stride, Ray ray, Hit hit) {
     storeWord(at, stride, ray.last);
     storeWord(at, stride, ray.target);
     storeWord(at, stride, ray.inside);
+    storeWord(at, stride, ray.passed);
+    storeWord(at, stride, ray.idle);
+    storeWord(at, stride, floatBitsToUint(ray.idleT));
+    storeWord(at, stride, floatBitsToUint(ray.slack));
     storeWord(at, stride, hit.primitive);
     storeWord(at, stride, floatBitsToUint(hit.uv.x));
     storeWord(at, stride, floatBitsToUint(hit.uv.y));
@@ -84,17 +91,21 @@ void savePath(uint lane, uint stride, Path p) {
     storeWord(at, stride, floatBitsToUint(s.end));
     storeWord(at, stride, s.collisions);
     storeWord(at, stride, uint(s.cell.x) | uint(s.cell.y) << 10u | uint(s.cell.z) << 20u);
-    storeWord(at, stride, s.state | (s.shadow ? 4u : 0u) | (p.hit.exits ? 8u : 0u) | s.hero << 4u);
+    storeWord(at, stride, s.state | (s.shadow ? 4u : 0u) | (p.hit.exits ? 8u : 0u) | (p.hit.near ? 16u : 0u) | s.hero << 5u);
     storeWord(at, stride, p.vertex);
     storeVector(at, stride, p.beta);
     storeVector(at, stride, p.radiance);
     storeVector(at, stride, p.pending);
     storeVector(at, stride, p.nextDirection);
     storeVector(at, stride, p.vertexPosition);
-    storeVector(at, stride, p.vertexOffset);
+    storeVector(at, stride, p.vertexStart.normal);
+    storeVector(at, stride, p.vertexStart.edge);
+    storeVector(at, stride, p.vertexStart.inward);
     storeWord(at, stride, floatBitsToUint(p.lastPdf));
     storeWord(at, stride, p.nextExponential.x);
     storeWord(at, stride, p.nextExponential.y);
+    storeWord(at, stride, floatBitsToUint(p.vertexOffset));
+    storeWord(at, stride, floatBitsToUint(p.vertexSlack));
     storeWord(at, stride, p.vertexInside);
     storeWord(at, stride, p.vertexLast);
 }
@@ -111,26 +122,34 @@ void loadPath(uint lane, uint stride, inout Path p) {
     p.ray.last = loadWord(at, stride);
     p.ray.target = loadWord(at, stride);
     p.ray.inside = loadWord(at, stride);
+    p.ray.passed = loadWord(at, stride);
+    p.ray.idle = loadWord(at, stride);
+    p.ray.idleT = loadFloat(at, stride);
+    p.ray.slack = loadFloat(at, stride);
     uint primitive = loadWord(at, stride);
     float u = loadFloat(at, stride), v = loadFloat(at, stride);
     vec3 progress = loadVector(at, stride);
     vec3 weight = loadVector(at, stride), ratio = loadVector(at, stride);
     float end = loadFloat(at, stride);
     uint collisions = loadWord(at, stride), cell = loadWord(at, stride), bits = loadWord(at, stride);
-    p.hit = Hit(distances.z, primitive, vec2(u, v), (bits & 8u) != 0u);
+    p.hit = Hit(distances.z, primitive, vec2(u, v), (bits & 8u) != 0u, (bits & 16u) != 0u);
     p.segment = Segment(progress.x, end, progress.y, collisions,
                         ivec3(uvec3(cell, cell >> 10u, cell >> 20u) & 1023u), bits & 3u, (bits & 4u) != 0u,
-                        bits >> 4u, progress.z, weight, ratio);
+                        bits >> 5u, progress.z, weight, ratio);
     p.vertex = loadWord(at, stride);
     p.beta = loadVector(at, stride);
     p.radiance = loadVector(at, stride);
     p.pending = loadVector(at, stride);
     p.nextDirection = loadVector(at, stride);
     p.vertexPosition = loadVector(at, stride);
-    p.vertexOffset = loadVector(at, stride);
+    p.vertexStart.normal = loadVector(at, stride);
+    p.vertexStart.edge = loadVector(at, stride);
+    p.vertexStart.inward = loadVector(at, stride);
     p.lastPdf = loadFloat(at, stride);
     p.nextExponential.x = loadWord(at, stride);
     p.nextExponential.y = loadWord(at, stride);
+    p.vertexOffset = loadFloat(at, stride);
+    p.vertexSlack = loadFloat(at, stride);
     p.vertexInside = loadWord(at, stride);
     p.vertexLast = loadWord(at, stride);
 }

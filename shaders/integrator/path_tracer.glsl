@@ -46,10 +46,11 @@ const uint kBegin = 5u;     // the window's first path
 void startRay(inout Path p, bool shadow, DirectLight light, uvec2 shadowExponential) {
     vec3 direction = shadow ? light.direction : p.nextDirection;
     uvec2 word = shadow ? shadowExponential : p.nextExponential;
-    float side = dot(p.vertexOffset, direction) < 0.0 ? -1.0 : 1.0;
-    vec3 origin = hasTriangles ? p.vertexPosition + side * p.vertexOffset : p.vertexPosition;
-    p.ray = Ray(origin, 0.0, direction, shadow ? light.distance : kInfinity, p.vertexLast,
-                shadow ? light.target : kNone, p.vertexInside);
+    vec3 offset = p.vertexStart.normal * p.vertexOffset;
+    float side = dot(offset, direction) < 0.0 ? -1.0 : 1.0;
+    vec3 origin = hasTriangles ? p.vertexPosition + side * offset : p.vertexPosition;
+    p.ray = newRay(origin, direction, shadow ? light.distance : kInfinity, p.vertexLast, shadow ? light.target : kNone,
+                   p.vertexInside, p.vertexSlack);
     p.segment.shadow = shadow;
     p.segment.residual = exponential(word.x, word.y);
     p.segment.collisions = 0u;
@@ -62,6 +63,13 @@ void keyPath(inout Path p, uint pixelIndex, PathArguments arguments) {
     uint low = arguments.sampleLow + p.sampleIndex;
     uint high = arguments.sampleHigh + (low < arguments.sampleLow ? 1u : 0u);
     p.stream = streamOf(pixelIndex, low, high, arguments.seed);
+}
+
+// Shader only: the reference's vertices begin so.
+void leaveNoSurface(inout Path p) {
+    p.vertexStart = Start(vec3(0.0), vec3(0.0), vec3(0.0));
+    p.vertexOffset = 0.0;
+    p.vertexSlack = -1.0;
 }
 
 // Puts a new path on the camera, ready for its first flight.
@@ -77,7 +85,7 @@ void startPath(inout Path p, uint pixelIndex, uvec2 pixel, PathArguments argumen
     p.nextDirection = cameraDirection(filmPosition(pixel, vec2(toUniform(word.x), toUniform(word.y))));
     p.nextExponential = uvec2(word.z, spareBits(word.x, word.y, word.w));
     p.vertexPosition = vec3(0.0);
-    p.vertexOffset = vec3(0.0);
+    leaveNoSurface(p);
     p.vertexInside = camera.inside;
     p.vertexLast = kNone;
 }

@@ -48,7 +48,9 @@ Vertex surfaceVertex(inout Path p, Surface surface, Shape shape, inout vec3 gain
     vec3 normal = surface.shadingNormal;
     if (hasDoubleSided && (shape.flags & kShapeTwoSided) != 0u && dot(normal, wo) < 0.0) normal = -normal;
     p.vertexPosition = surface.position;
+    p.vertexStart = Start(surface.geometricNormal, surface.edge, surface.inward);
     p.vertexOffset = surface.offset;
+    p.vertexSlack = surface.slack;
     p.vertexLast = p.hit.primitive;
     p.vertexInside = p.ray.inside;
     return Vertex(dot(normal, wo) > 0.0, Scatterer(normal, wo, noPhase(), true), reflectanceAt(shape, surface.uv));
@@ -58,7 +60,7 @@ Vertex surfaceVertex(inout Path p, Surface surface, Shape shape, inout vec3 gain
 Vertex mediumVertex(inout Path p) {
     Medium medium = mediumAt(hasManyMedia ? interiorOf(p.ray.inside) : 0u);
     p.vertexPosition = p.ray.origin + p.segment.t * p.ray.direction;
-    p.vertexOffset = vec3(0.0);
+    leaveNoSurface(p);
     p.vertexLast = kNone;
     p.vertexInside = p.ray.inside;
     uvec4 word = uvec4(0u);
@@ -80,8 +82,10 @@ uint arrive(inout Path p, inout Vertex vertex) {
     uint next = kFinish;
     vec3 gain = vec3(0.0);
     if (boundary) {
-        p.ray.inside = crossBoundary(p.ray, p.hit, surface.shape, shape.exterior, surface.geometricNormal);
-        p.ray.tMin = p.hit.t;
+        crossBoundary(p.ray, p.hit, surface.shape, shape.exterior, surface.geometricNormal);
+        next = kCross;
+    } else if (!miss && leavesAside(p.ray, p.hit, surface, p.vertexStart)) {
+        passHit(p.ray, p.hit);
         next = kCross;
     } else if (p.segment.shadow) {
         if (miss) gain = p.pending * p.segment.weight;

@@ -60,7 +60,7 @@ SHARED_CONST(uint, kDrawIndexShift, 3u);
 
 // A path saved between dispatches: kPathStateWords words, word w of lane l at w * lanes + l. Word
 // kPathSampleWord counts the samples the lane has finished in this window.
-SHARED_CONST(uint, kPathStateWords, 53u);
+SHARED_CONST(uint, kPathStateWords, 65u);
 SHARED_CONST(uint, kPathSampleWord, 0u);
 
 struct PathArguments {

@@ -24,6 +24,15 @@ SHARED_CONST(uint, kNone, 0xffffffffu);  // "no shape / medium / light / primiti
 SHARED_CONST(uint, kShapeNull, 1u);        // null BSDF: a medium boundary, or nothing at all
 SHARED_CONST(uint, kShapeTwoSided, 2u);    // diffuse on both sides
 SHARED_CONST(uint, kShapeFlipNormal, 4u);  // spheres and boxes that face inwards; others have their side in the data
+// On the device, boundaries are numbered so that those within one follow it: from these bits on, its own number and the
+// last one within it (0, 0 for all other shapes).
+SHARED_CONST(uint, kShapeOrderShift, 4u);
+SHARED_CONST(uint, kShapeLastShift, 18u);
+SHARED_CONST(uint, kMaxBoundaries, 16383u);  // medium boundaries of a scene
+
+// Boundaries of one shape, met the wrong way round within this share of their distance, lie in one another (README,
+// "inside").
+SHARED_CONST(float, kCoincidence, 0.00006103515625f);
 
 // What a primitive belongs to. Stored as two texels (vec4 each); integers bit-cast into floats.
 struct Shape {

@@ -7,7 +7,8 @@
 void probeItem() {
     loadScene();
     vec4 a = probeInput(0u), b = probeInput(1u), c = probeInput(2u);  // origin, tMin; direction; last, inside
-    Ray ray = Ray(a.xyz, a.w, b.xyz, kInfinity, floatBitsToUint(c.x), kNone, floatBitsToUint(c.y));
+    Ray ray = newRay(a.xyz, b.xyz, kInfinity, floatBitsToUint(c.x), kNone, floatBitsToUint(c.y), -1.0);
+    ray.tMin = a.w;
     bool ok = true;
     uint tests = 0u;
     Hit hit = closestHit(ray, true, tests, ok);

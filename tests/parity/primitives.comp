@@ -8,7 +8,10 @@ void probeItem() {
     uint index = floatBitsToUint(probeInput(0u).w);
     vec3 origin = probeInput(0u).xyz, direction = probeInput(1u).xyz;
     switch (probeFunction) {
-        case 0u: probeOutput(0u, vec4(intersectQuad(scene.quads[index], origin, direction))); break;
+        case 0u:
+            probeOutput(0u, vec4(intersectQuad(scene.quads[index], origin, direction),
+                                 quadDistanceError(scene.quads[index], origin, direction, probeInput(1u).w), 0.0, 0.0));
+            break;
         case 1u:
             probeOutput(0u, vec4(sphereInterval(scene.spheres[index].center, scene.spheres[index].radius, origin, direction), 0.0, 0.0));
             break;

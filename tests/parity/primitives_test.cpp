@@ -65,7 +65,9 @@ TEST_F(PrimitivesParity, QuadDistanceAgreesWithinItsConditioning) {
     const auto outputs = run(kQuad, lines);
     // Two dot products of differences 2 * (1 + 3), quotient 5; u and v take t and another dot product 3 + 2.
     constexpr double kDistance = 13, kEdge = kDistance + 5;
-    Parity parity("geometry/primitives", "intersectQuad", kDistance);
+    // The bound: a dot product of a difference 4, a sum, the cosine 3 (relative to facing), a quotient.
+    Parity parity("geometry/primitives", "intersectQuad", kDistance),
+        bound("geometry/primitives", "quadDistanceError", 9);
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const auto& quad = scene_.quads[lines[i].primitive];
         const glm::dvec3 o(lines[i].origin), d(lines[i].direction);
@@ -80,6 +82,16 @@ TEST_F(PrimitivesParity, QuadDistanceAgreesWithinItsConditioning) {
         const double edge = std::min({std::abs(u), std::abs(v), std::abs(1 - u), std::abs(1 - v)});
         if (edge < kEdge * kRounding * scale) continue;  // either answer is right
         EXPECT_TRUE(parity.near(outputs[i].x, reference::intersectQuad(quad, o, d).value_or(-1), scale)) << i;
+        const double plane = glm::dot(quad.normal, quad.corner - o) / glm::dot(quad.normal, d);
+        if (outputs[i].x != -1) {
+            EXPECT_LE(std::abs(outputs[i].x - plane), outputs[i].y) << i;
+        }
+        const auto inFloat = static_cast<const shared::Quad&>(built_.scene.constants.quads[lines[i].primitive]);
+        reference::Quad<float> single;
+        single.normal = inFloat.normal;
+        single.corner = inFloat.corner;
+        const double error = reference::quadDistanceError(single, lines[i].origin, lines[i].direction, 0.0f);
+        EXPECT_TRUE(bound.near(outputs[i].y, error, error / facing)) << i;
     }
 }
 

@@ -17,7 +17,7 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/triangle.comp";
-enum Function : std::uint32_t { kIntersect, kNearer };
+enum Function : std::uint32_t { kIntersect, kNearer, kFlat, kError };
 
 struct Case {
     glm::vec3 origin, direction, a, b, c;
@@ -196,6 +196,86 @@ TEST(TriangleParity, NearerHitDoesNotDependOnOrderH46) {
         EXPECT_TRUE(parity.near(outputs[i].x, best.t)) << i;
         EXPECT_TRUE(parity.equal(glm::floatBitsToUint(outputs[i].y), best.primitive)) << i;
     }
+}
+
+// Flat primitives at, before and behind tMin, with and without uncertainty.
+TEST(TriangleParity, WhatIsStillAheadAgrees) {
+    std::vector<glm::vec4> inputs;
+    for (const float tMin : {0.0f, 1.0f})
+        for (const std::uint32_t passed : {0u, 4u, 5u})
+            for (const float slack : {-1.0f, 0.0f, 0.25f})
+                for (const float t : {-0.5f, -0.1f, 0.0f, 0.1f, 1.0f, 2.0f, 9.0f})
+                    for (const float error : {0.0f, 0.2f})
+                        for (const std::uint32_t primitive : {3u, 4u, 6u, 7u}) {
+                            inputs.emplace_back(tMin, glm::uintBitsToFloat(passed), slack, 0);
+                            inputs.emplace_back(t, error, glm::uintBitsToFloat(primitive), 0);
+                        }
+    const auto outputs = test::probe(kShader, kFlat, inputs, 2, 1);
+    Parity parity("geometry/ray", "isAhead hitFlat", 0);
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const glm::vec4 &a = inputs[2 * i], &b = inputs[2 * i + 1];
+        reference::Ray<float> ray;
+        ray.tMin = a.x;
+        ray.tMax = 8;
+        ray.passed = glm::floatBitsToUint(a.y);
+        ray.start.slack = a.z;
+        ray.last = 6;
+        ray.target = 7;
+        reference::Hit<float> hit, best;
+        best.t = 8;
+        hit.t = b.x;
+        hit.primitive = glm::floatBitsToUint(b.z);
+        EXPECT_TRUE(parity.equal(outputs[i].w != 0, reference::isAhead(ray, hit.t, hit.primitive))) << i;
+        reference::hitFlat(ray, hit, b.y, best);
+        EXPECT_TRUE(parity.near(outputs[i].x, best.t)) << i;
+        EXPECT_TRUE(parity.equal(glm::floatBitsToUint(outputs[i].y), best.primitive)) << i;
+        EXPECT_TRUE(parity.equal(outputs[i].z != 0, best.near)) << i;
+    }
+}
+
+// The bound holds: distances in float, of rays that start on the triangle's plane give or take `slack`, are off by
+// less.
+TEST(TriangleParity, DistancesAreWithinTheirErrorBound) {
+    std::vector<Case> cases;
+    std::vector<float> slacks;
+    std::vector<glm::vec4> inputs, bounds;
+    Stress stress(16);
+    for (int i = 0; i < 40'000; ++i) {
+        const float size = stress.magnitude(1e-3f, 1e3f), far = i % 2 == 0 ? 0.0f : 100 * size;
+        const glm::vec3 shift(far, 0.3f * far, -far);
+        Case c{glm::vec3(0), stress.direction(), shift + stress.point(size), shift + stress.point(size),
+               shift + stress.point(size)};
+        const float s = stress.between(0, 1), t = stress.between(0, 1);
+        c.origin = c.a + (c.b - c.a) * s * (1 - t) + (c.c - c.a) * s * t;
+        cases.push_back(c);
+        slacks.push_back(i % 3 == 0 ? 0.0f : 1e-6f * size);
+        inputs.emplace_back(c.origin, slacks.back());
+        for (const glm::vec3& v : {c.direction, c.a, c.b, c.c}) inputs.emplace_back(v, 0);
+        bounds.emplace_back(size, size * size, 0.5f * size * size * stress.between(0.1f, 1), 1.5f);
+        bounds.emplace_back(slacks.back(), 0, 0, 0);
+    }
+    const auto outputs = test::probe(kShader, kIntersect, inputs, 5, 2);
+    const auto errors = test::probe(kShader, kError, bounds, 2, 1);
+    // Ten products and sums on the way, all of one sign.
+    Parity parity("geometry/triangle", "distanceError", 12);
+    std::size_t hits = 0, loose = 0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const glm::vec4& b = bounds[2 * i];
+        // The same roundings as float has: the bound counts in them.
+        const double expected = reference::distanceError<float>(b.x, b.y, b.z, b.w, bounds[2 * i + 1].x);
+        EXPECT_TRUE(parity.near(errors[i].x, expected, expected)) << i;
+        const Case& c = cases[i];
+        if (outputs[2 * i].y < 0) continue;
+        // Where the ray's line meets the triangle's plane, and how much more it could be within `slack`.
+        const glm::dvec3 n = glm::normalize(glm::cross(glm::dvec3(c.b - c.a), glm::dvec3(c.c) - glm::dvec3(c.a)));
+        const double facing = glm::dot(n, glm::dvec3(c.direction));
+        const double exact = glm::dot(n, glm::dvec3(c.a) - glm::dvec3(c.origin)) / facing;
+        ++hits;
+        EXPECT_LE(std::abs(outputs[2 * i].x - exact) + slacks[i] / std::abs(facing), outputs[2 * i].w) << i;
+        loose += outputs[2 * i].w > 1e-2 * glm::length(c.b - c.a);
+    }
+    EXPECT_GT(hits, 10'000u);
+    EXPECT_LT(loose, hits / 20) << "a bound that is nearly the triangle's size tells nothing";
 }
 
 }  // namespace

@@ -49,21 +49,25 @@ Real boxEntry(const glm::vec4& low, const glm::vec4& high, const BoundsRay<Real>
 }
 
 /// Calls accept(triangle, TriangleHit) for every triangle of a leaf that the ray's line meets.
+///
+/// @param slack  uncertainty of the ray's origin.
 template <typename Real, typename Accept>
-void hitLeaf(const SceneView<Real>& scene, const TriangleRay<Real>& ray, std::int32_t leaf, Accept&& accept) {
+void hitLeaf(const SceneView<Real>& scene, const TriangleRay<Real>& ray, std::int32_t leaf, Real slack,
+             Accept&& accept) {
     const auto packed = static_cast<std::uint32_t>(~leaf);
     for (std::uint32_t i = packed >> 3, end = i + (packed & 7u); i < end; ++i)
-        if (const auto hit = intersectTriangle(ray, scene.vertex(i, 0), scene.vertex(i, 1), scene.vertex(i, 2)))
+        if (const auto hit = intersectTriangle(ray, scene.vertex(i, 0), scene.vertex(i, 1), scene.vertex(i, 2), slack))
             accept(i, *hit);
 }
 
 /// Visits every triangle whose leaf the ray meets in [tMin, limit()], near leaves first.
 ///
+/// @param slack   uncertainty of the origin, for the errors of the hits.
 /// @param limit   () -> Real: distance beyond which nothing matters; read again as it shrinks.
 /// @param accept  (triangle, TriangleHit): called for each hit, in any order, perhaps twice.
 template <typename Real, typename Limit, typename Accept>
 void traverse(const SceneView<Real>& scene, const Vec3<Real>& origin, const Vec3<Real>& direction, Real tMin,
-              Limit&& limit, Accept&& accept) {
+              Real slack, Limit&& limit, Accept&& accept) {
     struct Pending {
         std::int32_t node;
         Real enter;
@@ -79,7 +83,7 @@ void traverse(const SceneView<Real>& scene, const Vec3<Real>& origin, const Vec3
         const Real tMax = limit() * (1 + kDistanceMargin<Real>);
         if (next.enter > tMax * kBoundsMargin<Real>) continue;
         if (next.node < 0) {
-            hitLeaf(scene, triangleRay, next.node, accept);
+            hitLeaf(scene, triangleRay, next.node, slack, accept);
             continue;
         }
         const glm::vec4* texels = &scene.source.bvhNodes[std::size_t(next.node) * shared::kBvhNodeTexels];

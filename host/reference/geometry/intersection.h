@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/geometry/bvh.h"
+#include "reference/geometry/flat.h"
 #include "reference/geometry/primitives.h"
 #include "reference/geometry/ray.h"
 #include "reference/geometry/surface.h"
@@ -43,26 +44,18 @@ void hitConvex(const SceneView<Real>& scene, const Ray<Real>& ray, Hit<Real> hit
     if (hit.t < ray.tMax) keepNearer(nearest, hit);
 }
 
-/// What a flat primitive adds: an opaque one may be met where the ray has just left a medium.
-/// Reference only: the shader has it where it meets quads and triangles.
-template <typename Real>
-void hitFlat(const Ray<Real>& ray, const Hit<Real>& hit, Hit<Real>& nearest) {
-    if (hit.primitive == ray.last || hit.primitive == ray.target) return;
-    if (!(hit.isNull ? hit.t > ray.tMin : hit.t >= ray.tMin) || !(hit.t < ray.tMax)) return;
-    keepNearer(nearest, hit);
-}
-
 /// The first surface or null boundary from ray.tMin on and before ray.tMax.
 template <typename Real>
 Hit<Real> closestHit(const SceneView<Real>& scene, const Ray<Real>& ray) {
     Hit<Real> nearest, hit;
     hit.primitive = 0;
+    const Real uncertainty = std::max(ray.start.slack, Real(0));
     for (const Quad<Real>& quad : scene.quads) {
         hit.shape = quad.shape;
         hit.isNull = quad.isNull;
         if (const auto t = intersectQuad(quad, ray.origin, ray.direction)) {
             hit.t = *t;
-            hitFlat(ray, hit, nearest);
+            hitFlat(ray, hit, quadDistanceError(quad, ray.origin, ray.direction, uncertainty), nearest);
         }
         ++hit.primitive;
     }
@@ -77,16 +70,16 @@ Hit<Real> closestHit(const SceneView<Real>& scene, const Ray<Real>& ray) {
     for (const Box<Real>& box : scene.boxes) addConvex(box, boxInterval(box, ray.origin, ray.direction));
     if (scene.constants.triangleCount == 0) return nearest;
     const auto addTriangle = [&](std::uint32_t triangle, const TriangleHit<Real>& found) {
-        if (found.t > nearest.t) return;
+        if (found.t - found.error > nearest.t) return;
         hit.t = found.t;
         hit.primitive = scene.firstTriangle + triangle;
         hit.shape = scene.triangleShape(triangle);
         hit.isNull = scene.isNull(hit.shape);
         hit.barycentric = {found.b1, found.b2};
-        hitFlat(ray, hit, nearest);
+        hitFlat(ray, hit, found.error, nearest);
     };
     const auto limit = [&] { return std::min(nearest.t, ray.tMax); };
-    traverse(scene, ray.origin, ray.direction, ray.tMin, limit, addTriangle);
+    traverse(scene, ray.origin, ray.direction, ray.tMin, uncertainty, limit, addTriangle);
     return nearest;
 }
 
@@ -94,9 +87,21 @@ Hit<Real> closestHit(const SceneView<Real>& scene, const Ray<Real>& ray) {
 /// the boundary. It has entered the mesh if what it meets first is the mesh's boundary from within.
 template <typename Real>
 void noticeEntry(const SceneView<Real>& scene, const Hit<Real>& hit, Ray<Real>& ray) {
-    if (!hit.found() || !hit.isNull || hit.primitive < scene.firstTriangle) return;
+    if (!hit.found() || !hit.isNull || hit.near || hit.primitive < scene.firstTriangle) return;
     if (ray.last == kNone || ray.tMin > 0 || surrounds(scene, hit.shape, ray.inside)) return;
     if (glm::dot(ray.direction, flatNormal(scene, hit.primitive)) > 0) ray.inside = hit.shape;
+}
+
+/// Goes on behind what the ray has hit.
+template <typename Real>
+void passHit(const SceneView<Real>& scene, const Hit<Real>& hit, Ray<Real>& ray) {
+    const bool hasMoved = hit.t > ray.tMin;
+    ray.stalls = hasMoved ? 0 : ray.stalls + 1;
+    if (isFlatPrimitive(scene, hit.primitive))
+        ray.passed = hit.primitive + 1;
+    else if (hasMoved)
+        ray.passed = 0;
+    ray.tMin = hit.t;
 }
 
 /// Takes the ray across the null boundary it has hit.
@@ -104,16 +109,21 @@ void noticeEntry(const SceneView<Real>& scene, const Hit<Real>& hit, Ray<Real>& 
 /// @return false when the ray no longer gets anywhere: it alternates between null shapes that overlap.
 template <typename Real>
 bool crossBoundary(const SceneView<Real>& scene, const Hit<Real>& hit, Ray<Real>& ray) {
-    constexpr std::uint32_t kMaxStalls = 64;
-    const bool isConvex = hit.primitive >= scene.firstSphere && hit.primitive < scene.firstTriangle;
-    const bool enters = isConvex ? !hit.exits : glm::dot(ray.direction, flatNormal(scene, hit.primitive)) < 0;
-    if (enters)
-        ray.inside = hit.shape;
-    else if (ray.inside == hit.shape)
-        ray.inside = scene.shapeAt(hit.shape).exterior;
-    ray.stalls = hit.t > ray.tMin ? 0 : ray.stalls + 1;
-    ray.tMin = hit.t;
-    return ray.stalls < kMaxStalls;
+    const bool isFlat = isFlatPrimitive(scene, hit.primitive);
+    const bool enters = isFlat ? glm::dot(ray.direction, flatNormal(scene, hit.primitive)) < 0 : !hit.exits;
+    const bool isWithin = hit.exits || surrounds(scene, hit.shape, ray.inside);
+    const auto& idle = ray.idle;
+    const bool answersIdle =
+        idle.shape == hit.shape && idle.entered != enters && hit.t - idle.t <= Real(shared::kCoincidence) * hit.t;
+    if (enters == isWithin)
+        ray.idle = {hit.shape, enters, hit.t};
+    else if (answersIdle)
+        ray.idle = {};
+    else
+        ray.inside = enters ? hit.shape : scene.shapeAt(hit.shape).exterior;
+    passHit(scene, hit, ray);
+    // Each primitive is crossed once at one distance, a convex one twice.
+    return ray.stalls <= 2 * (scene.firstTriangle + scene.constants.triangleCount);
 }
 
 }  // namespace parhelion::reference

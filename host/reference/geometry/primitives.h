@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "reference/core/scene.h"
@@ -23,6 +24,16 @@ std::optional<Real> intersectQuad(const Quad<Real>& quad, const Vec3<Real>& orig
     // A parallel ray has t infinite or NaN and fails the comparisons.
     if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1)) return std::nullopt;
     return t;
+}
+
+/// Bound on the error of intersectQuad: the distance from the plane has 5 roundings of its terms.
+///
+/// @param slack  uncertainty of the origin.
+template <typename Real>
+Real quadDistanceError(const Quad<Real>& quad, const Vec3<Real>& origin, const Vec3<Real>& direction, Real slack) {
+    const Real terms = glm::dot(glm::abs(quad.normal), glm::abs(quad.corner - origin));
+    const Real distance = Real(2.5) * std::numeric_limits<Real>::epsilon() * terms;
+    return (distance + slack) / std::abs(glm::dot(quad.normal, direction));
 }
 
 /// The discriminant from the perpendicular component: nothing cancels for far spheres.

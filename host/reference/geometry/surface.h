@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "reference/core/scene.h"
@@ -13,7 +14,24 @@ struct Surface {
     Vec3<Real> position, geometricNormal, shadingNormal;
     Real rounding;  ///< a bound on how far `position` lies off a triangle along its normal; 0 on other shapes
     Vec2<Real> uv{0};
+    Real slack = -1;       ///< quads and triangles: how far a ray's start may lie off it
+    Vec3<Real> edge{0};    ///< quads and triangles: unit, along the edge that the position is next to; 0: next to none
+    Vec3<Real> inward{0};  ///< quads and triangles: from the position to the middle
+
+    /// Reference only: the shader writes them into the path state.
+    typename Ray<Real>::Start start() const { return {geometricNormal, edge, inward, slack}; }
 };
+
+/// Next to an edge is what is this share of a flat primitive away from it, or, of slivers, this share of the longest
+/// edge.
+template <typename Real>
+inline constexpr Real kNextToEdge = Real(1) / 1024;
+template <typename Real>
+inline constexpr Real kEdgeWidth = Real(1) / 16384;
+
+/// Relative error of a sum of three products.
+template <typename Real>
+inline constexpr Real kGamma7 = Real(3.5) * std::numeric_limits<Real>::epsilon();
 
 /// Unit normal of a triangle counted from the first.
 /// Reference only: the shader has it within triangleSurface.
@@ -38,24 +56,50 @@ Vec2<Real> triangleUv(const SceneView<Real>& scene, std::uint32_t triangle, cons
            barycentric.y * Vec2<Real>(uv[2]);
 }
 
+/// Where a point of a triangle lies in it: `edge` of its surface, and the point itself, moved towards the middle if it
+/// is within its own rounding of an edge.
+/// Reference only: within triangleSurface in the shader.
+///
+/// @param b  barycentrics of the point.
+template <typename Real>
+void placeInTriangle(const SceneView<Real>& scene, std::uint32_t triangle, Vec3<Real>& b, Surface<Real>& surface) {
+    const Vec3<Real> corners[3] = {scene.vertex(triangle, 0), scene.vertex(triangle, 1), scene.vertex(triangle, 2)};
+    const Vec3<Real> edges[3] = {corners[2] - corners[1], corners[0] - corners[2], corners[1] - corners[0]};
+    const int nearest = b.x <= b.y && b.x <= b.z ? 0 : (b.y <= b.z ? 1 : 2);
+    const Real longest = std::max({glm::length(edges[0]), glm::length(edges[1]), glm::length(edges[2])});
+    const Real height = glm::length(glm::cross(edges[2], edges[1])) / longest, distance = b[nearest] * height;
+    if (b[nearest] < kNextToEdge<Real> || distance < kEdgeWidth<Real> * longest)
+        surface.edge = glm::normalize(edges[nearest]);
+    const Vec3<Real> terms = glm::abs(b.x * corners[0]) + glm::abs(b.y * corners[1]) + glm::abs(b.z * corners[2]);
+    const Real rounding = kGamma7<Real> * (maxComponent(terms) + longest);
+    if (distance >= rounding) return;
+    const Real share = std::min(Real(0.5), 3 * rounding / height), third = Real(1) / 3;
+    b.y += share * (third - b.y);
+    b.z += share * (third - b.z);
+    b.x = 1 - b.y - b.z;
+}
+
 /// Position, normals and rounding of a point of a triangle.
 ///
 /// Source of the bound: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", 4th ed., section 6.8.5.
 template <typename Real>
 Surface<Real> triangleSurface(const SceneView<Real>& scene, std::uint32_t triangle, const Vec2<Real>& barycentric) {
-    constexpr Real kUnit = std::numeric_limits<Real>::epsilon() / 2;
-    constexpr Real kGamma7 = 7 * kUnit / (1 - 7 * kUnit);
-    const Vec3<Real> b{1 - barycentric.x - barycentric.y, barycentric.x, barycentric.y};
+    Vec3<Real> b{1 - barycentric.x - barycentric.y, barycentric.x, barycentric.y};
+    Surface<Real> surface;
+    placeInTriangle(scene, triangle, b, surface);
     const Vec3<Real> p0 = b.x * scene.vertex(triangle, 0);
     const Vec3<Real> p1 = b.y * scene.vertex(triangle, 1);
     const Vec3<Real> p2 = b.z * scene.vertex(triangle, 2);
-    Surface<Real> surface;
     surface.position = p0 + p1 + p2;
     surface.geometricNormal = triangleNormal(scene, triangle);
     surface.shadingNormal = surface.geometricNormal;
-    const Vec3<Real> error = kGamma7 * (glm::abs(p0) + glm::abs(p1) + glm::abs(p2));
+    const Vec3<Real> error = kGamma7<Real> * (glm::abs(p0) + glm::abs(p1) + glm::abs(p2));
     surface.rounding = glm::dot(error, glm::abs(surface.geometricNormal));
-    if (!scene.source.triangleUvs.empty()) surface.uv = triangleUv(scene, triangle, barycentric);
+    surface.slack = 2 * surface.rounding;
+    const Real third = Real(1) / 3;
+    surface.inward = (third - b.y) * (scene.vertex(triangle, 1) - scene.vertex(triangle, 0)) +
+                     (third - b.z) * (scene.vertex(triangle, 2) - scene.vertex(triangle, 0));
+    if (!scene.source.triangleUvs.empty()) surface.uv = triangleUv(scene, triangle, Vec2<Real>(b.y, b.z));
     if (scene.source.vertexNormals.empty()) return surface;
     const glm::vec4* normals = &scene.source.vertexNormals[std::size_t(triangle) * 3];
     const Vec3<Real> n = b.x * Vec3<Real>(normals[0]) + b.y * Vec3<Real>(normals[1]) + b.z * Vec3<Real>(normals[2]);
@@ -111,6 +155,28 @@ Surface<Real> boxSurface(const SceneView<Real>& scene, const Box<Real>& box, con
     return {position, n, n, 0, boxUv(box, position)};
 }
 
+/// Reference only: within surfaceAt in the shader.
+template <typename Real>
+Surface<Real> quadSurface(const Quad<Real>& quad, const Vec3<Real>& position) {
+    const Vec3<Real> p = position - quad.corner;
+    const Real u = glm::dot(quad.uFromWorld, p), v = glm::dot(quad.vFromWorld, p);
+    const Real besideU = std::min(u, 1 - u), besideV = std::min(v, 1 - v);
+    // Within its own rounding of an edge, the point is moved towards the middle.
+    const auto move = [&](Real at, Real beside, Real length) {
+        const Real rounding = kGamma7<Real> * (maxComponent(glm::abs(position)) + length);
+        return beside * length < rounding ? std::min(Real(0.5), rounding / length) * (Real(0.5) - at) : Real(0);
+    };
+    const Vec3<Real> moved = position + move(u, besideU, glm::length(quad.edgeU)) * quad.edgeU +
+                             move(v, besideV, glm::length(quad.edgeV)) * quad.edgeV;
+    Surface<Real> surface{moved, quad.normal, quad.normal, 0, {u, v}};
+    surface.slack = std::abs(glm::dot(quad.normal, p)) +
+                    Real(2.5) * std::numeric_limits<Real>::epsilon() * glm::dot(glm::abs(quad.normal), glm::abs(p));
+    surface.inward = (Real(0.5) - u) * quad.edgeU + (Real(0.5) - v) * quad.edgeV;
+    if (std::min(besideU, besideV) < kNextToEdge<Real>)
+        surface.edge = glm::normalize(besideU < besideV ? quad.edgeV : quad.edgeU);
+    return surface;
+}
+
 template <typename Real>
 Surface<Real> surfaceAt(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit) {
     if (hit.primitive >= scene.firstTriangle)
@@ -120,9 +186,7 @@ Surface<Real> surfaceAt(const SceneView<Real>& scene, const Ray<Real>& ray, cons
         return boxSurface(scene, scene.boxes[hit.primitive - scene.firstBox], position);
     if (hit.primitive >= scene.firstSphere)
         return sphereSurface(scene, scene.spheres[hit.primitive - scene.firstSphere], position);
-    const Quad<Real>& quad = scene.quads[hit.primitive];
-    const Vec3<Real> p = position - quad.corner;
-    return {position, quad.normal, quad.normal, 0, {glm::dot(quad.uFromWorld, p), glm::dot(quad.vFromWorld, p)}};
+    return quadSurface(scene.quads[hit.primitive], position);
 }
 
 }  // namespace parhelion::reference

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -20,6 +23,7 @@ template <typename Real>
 struct TriangleHit {
     Real t;
     Real b1, b2;  ///< barycentric coordinates of the second and third vertex
+    Real error;   ///< bound on the error of t
 };
 
 template <typename Real>
@@ -36,12 +40,29 @@ TriangleRay<Real> rayShear(const Vec3<Real>& origin, const Vec3<Real>& direction
     return ray;
 }
 
+/// Bound on the error of the distance to a triangle, of the vertices in the sheared space.
+///
+/// @param size   largest coordinate of all three on all three axes: one size for the source's x, y and z.
+/// @param edge   largest edge function; det: their sum.
+/// @param scale  a distance is z times it.
+/// @param slack  uncertainty of the ray's origin: of z once, of the sheared x and y twice.
+///
+/// Source: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", 4th ed., section 6.8.7.
+template <typename Real>
+Real distanceError(Real size, Real edge, Real det, Real scale, Real slack) {
+    constexpr Real kUnit = std::numeric_limits<Real>::epsilon() / 2;
+    const Real deltaZ = 3 * kUnit * size + slack;
+    const Real deltaX = 5 * kUnit * (size + size) + 2 * slack;
+    const Real deltaEdge = 2 * (2 * kUnit * size * size + deltaX * size + deltaX * size);
+    return 3 * (3 * kUnit * edge * size + deltaEdge * size + deltaZ * edge) * std::abs(scale / det);
+}
+
 /// Watertight: a ray through a shared edge hits at least one of the two triangles (H47). No culling.
 ///
 /// Source: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1).
 template <typename Real>
 std::optional<TriangleHit<Real>> intersectTriangle(const TriangleRay<Real>& ray, const Vec3<Real>& v0,
-                                                   const Vec3<Real>& v1, const Vec3<Real>& v2) {
+                                                   const Vec3<Real>& v1, const Vec3<Real>& v2, Real slack = 0) {
     const Vec3<Real> a = v0 - ray.origin, b = v1 - ray.origin, c = v2 - ray.origin;
     const Real ax = a[ray.kx] - ray.shear.x * a[ray.kz], ay = a[ray.ky] - ray.shear.y * a[ray.kz];
     const Real bx = b[ray.kx] - ray.shear.x * b[ray.kz], by = b[ray.ky] - ray.shear.y * b[ray.kz];
@@ -53,7 +74,10 @@ std::optional<TriangleHit<Real>> intersectTriangle(const TriangleRay<Real>& ray,
     const Real det = u + v + w;
     if (det == 0) return std::nullopt;
     const Real scaledT = u * (ray.shear.z * a[ray.kz]) + v * (ray.shear.z * b[ray.kz]) + w * (ray.shear.z * c[ray.kz]);
-    return TriangleHit<Real>{scaledT / det, v / det, w / det};
+    const auto largest = [](Real p, Real q, Real r) { return std::max({std::abs(p), std::abs(q), std::abs(r)}); };
+    const Real size = std::max({largest(ax, bx, cx), largest(ay, by, cy), largest(a[ray.kz], b[ray.kz], c[ray.kz])});
+    const Real error = distanceError(size, largest(u, v, w), det, ray.shear.z, slack);
+    return TriangleHit<Real>{scaledT / det, v / det, w / det, error};
 }
 
 }  // namespace parhelion::reference

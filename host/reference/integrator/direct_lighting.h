@@ -43,6 +43,7 @@ Ray<Real> spawnRay(const Vertex<Real>& vertex, const Vec3<Real>& direction) {
     ray.direction = direction;
     ray.last = vertex.primitive;
     ray.inside = vertex.inside;
+    if (!vertex.medium) ray.start = vertex.surface.start();
     if (!vertex.medium && vertex.surface.rounding > 0) {
         const Vec3<Real>& n = vertex.surface.geometricNormal;
         ray.origin += n * std::copysign(vertex.surface.rounding, glm::dot(n, direction));
@@ -61,7 +62,9 @@ Vec3<Real> estimateTransmittance(const PathContext<Real, Trace>& path, Ray<Real>
     Vec3<Real> weight(1);
     for (;;) {
         const Hit<Real> hit = closestHit(path.scene, ray);
-        if (hit.found() && !hit.isNull) return Vec3<Real>(0);
+        const bool isOpaque = hit.found() && !hit.isNull;
+        if (isOpaque && !hit.near) return Vec3<Real>(0);
+        if (isOpaque && !leavesAside(path.scene, ray, hit, flatNormal(path.scene, hit.primitive))) return Vec3<Real>(0);
         const Real tEnd = hit.found() ? hit.t : ray.tMax;
         if (std::isinf(tEnd)) {
             // Without an end the ray is inside nothing, or has left a mesh unnoticed.
@@ -73,7 +76,9 @@ Vec3<Real> estimateTransmittance(const PathContext<Real, Trace>& path, Ray<Real>
         const Medium<Real>* medium = path.scene.interiorOf(ray.inside);
         if (medium && !trackShadow(path, *medium, ray, tEnd, vertex, threshold, residual, weight)) return Vec3<Real>(0);
         if (!hit.found()) return weight;
-        if (!crossBoundary(path.scene, hit, ray)) {
+        if (isOpaque)
+            passHit(path.scene, hit, ray);
+        else if (!crossBoundary(path.scene, hit, ray)) {
             ++path.counters[shared::kCounterLoopTruncated];
             return Vec3<Real>(0);
         }

@@ -24,6 +24,10 @@ FlightEnd<Real> fly(const PathContext<Real, Trace>& path, PathState<Real>& state
             const auto t = trackFlight(path, *medium, ray, hit.t, state.scatterings, state.residual, state.throughput);
             if (t) return {Kind::Medium, hit, medium, *t};
         }
+        if (hit.near && !hit.isNull && leavesAside(path.scene, ray, hit, flatNormal(path.scene, hit.primitive))) {
+            passHit(path.scene, hit, ray);
+            continue;
+        }
         path.trace.add(hit.isNull ? PathEvent::Boundary : PathEvent::Surface, hit.primitive);
         if (!hit.isNull) return {Kind::Surface, hit};
         if (!crossBoundary(path.scene, hit, ray)) return {Kind::Truncated};
