@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 
 #include "base/memory.h"
@@ -12,6 +13,7 @@
 #include "compile/compile_media.h"
 #include "compile/compile_textures.h"
 #include "compile/extinction_grid.h"
+#include "compile/medium_extent.h"
 #include "compile/nesting.h"
 
 namespace parhelion {
@@ -64,6 +66,7 @@ public:
         noteDropped(scene);
         for (std::size_t i = 0; i < shapes.size(); ++i)
             if (shapeIndex_[i] != shared::kNone) keep(i, description);
+        clipMedia(scene);
         scene.constants.camera.inside = keptOrAround(nesting_.camera);
     }
 
@@ -125,6 +128,16 @@ private:
         kept_.push_back(kept);
     }
 
+    void clipMedia(CompiledScene& scene) {
+        for (std::uint32_t medium = 0; medium < media_.size(); ++medium) {
+            std::vector<const PlacedShape*> boundaries;
+            for (const KeptShape& shape : kept_)
+                if (shape.interior == medium) boundaries.push_back(shape.placed);
+            if (auto clipped = clipToExtent(*media_[medium], boundaries, scene.worldOrigin, scene.notes))
+                media_[medium] = &clipped_.emplace_back(std::move(*clipped));
+        }
+    }
+
     std::span<const PlacedShape> shapes_;
     Nesting nesting_;
     std::vector<bool> emptyMedia_;
@@ -133,6 +146,7 @@ private:
     std::uint32_t count_ = 0;
     std::vector<KeptShape> kept_;
     std::vector<const MediumDescription*> media_;
+    std::deque<MediumDescription> clipped_;  ///< those of media_ that are not the description's
 };
 
 /// Notes media in which positions are too coarse to scatter about.

@@ -25,15 +25,20 @@ bool readScatteringAndAbsorption(PropertyReader& reader, MediumDescription& medi
 }
 
 void readExtinction(ReadContext& context, PropertyReader& reader, MediumDescription& medium) {
+    const bool heterogeneous = reader.type() == "heterogeneous";
     const auto volume = reader.namedNested("sigma_t", "volume");
     if (!volume) {
         medium.sigmaT = reader.color("sigma_t", 1.0, kNonNegative);
+        if (heterogeneous) medium.extent = {glm::dmat4(1.0), medium.where};
         return;
     }
     ReadVolume read = readVolumePlugin(context, *volume->element, VolumeRole::Extinction);
-    if (read.grid && reader.type() == "homogeneous")
+    if (read.grid && !heterogeneous)
         reader.fail(volume->where, "\"sigma_t\" cannot be a grid; use type \"heterogeneous\"");
+    if (!heterogeneous && read.extent.toWorld != glm::dmat4(1.0))
+        context.note(volume->where, "\"to_world\" has no effect: a homogeneous medium fills its boundary");
     medium.sigmaT = read.constant;
+    if (heterogeneous && !read.grid) medium.extent = std::move(read.extent);
     medium.density = std::move(read.grid);
 }
 

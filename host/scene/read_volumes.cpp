@@ -75,19 +75,13 @@ GridPlacement readGrid(ReadContext& context, PropertyReader& reader, VolumeRole 
     return placement;
 }
 
-/// Mitsuba places a constant in the unit cube under to_world, outside of which a heterogeneous medium ends.
-glm::dvec3 readConstant(ReadContext& context, PropertyReader& reader, VolumeRole role) {
-    const glm::dvec3 value = reader.color("value", 1.0, role == VolumeRole::Albedo ? kUnitInterval : kNonNegative);
-    if (reader.has("to_world")) {
-        reader.transform("to_world");
-        context.note(reader.whereOf("to_world"),
-                     role == VolumeRole::Albedo
-                         ? "\"to_world\" has no effect on a constant albedo"
-                         : "\"to_world\" has no effect: a constant fills its medium's boundary, where Mitsuba ends a "
-                           "heterogeneous medium with the cube that this places");
-    }
+/// A constant has its value everywhere; a heterogeneous medium ends with the cube that to_world places.
+void readConstant(ReadContext& context, PropertyReader& reader, VolumeRole role, ReadVolume& result) {
+    result.constant = reader.color("value", 1.0, role == VolumeRole::Albedo ? kUnitInterval : kNonNegative);
+    result.extent = {reader.transform("to_world").matrix, reader.where()};
+    if (reader.has("to_world") && role == VolumeRole::Albedo)
+        context.note(reader.whereOf("to_world"), "\"to_world\" has no effect on a constant albedo");
     reader.finish();
-    return value;
 }
 
 }  // namespace
@@ -99,7 +93,7 @@ ReadVolume readVolumePlugin(ReadContext& context, const XmlElement& element, Vol
     if (reader.type() == "gridvolume") {
         result.grid = readGrid(context, reader, role);
     } else if (reader.type() == "constvolume") {
-        result.constant = readConstant(context, reader, role);
+        readConstant(context, reader, role, result);
     } else if (reader.type() == "procedural_cloud" && role == VolumeRole::Extinction) {
         result.grid = readProceduralCloud(context, reader);
     } else if (role == VolumeRole::Extinction) {

@@ -10,6 +10,7 @@ enum class VolumeRole { Extinction, Albedo };
 /// A <volume>: a grid, or a constant (which is 1 when there is a grid).
 struct ReadVolume {
     glm::dvec3 constant{1.0};
+    VolumeExtent extent;  ///< of the constant
     std::optional<GridPlacement> grid;
 };
 

@@ -97,12 +97,19 @@ struct GridPlacement {
     SourceLocation where;
 };
 
+/// Where a volume of one value lies: the unit cube under toWorld.
+struct VolumeExtent {
+    glm::dmat4 toWorld{1.0};
+    SourceLocation where;
+};
+
 struct MediumDescription {
     std::string id;
     SourceLocation where;
     glm::dvec3 sigmaT{1.0};  ///< extinction at density 1, `scale` included [1/scene unit]
     glm::dvec3 albedo{0.75};
     std::optional<GridPlacement> density;
+    std::optional<VolumeExtent> extent;       ///< without density: it exists within the world-aligned bounds of this
     std::optional<GridPlacement> albedoGrid;  ///< three channels, or one (grey); values in [0, 1]
     PhaseDescription phase;
 };

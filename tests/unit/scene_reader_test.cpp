@@ -132,7 +132,7 @@ TEST(SceneNotes, TellWhatMitsubaAcceptsToo) {
     const SceneDescription scene = readText(sceneOf(R"(<medium type="homogeneous" id="fog"/>
 <shape type="sphere"><emitter type="area"><ref id="fog"/></emitter></shape>
 <emitter type="point"><medium type="homogeneous"/></emitter>
-<shape type="cube"><bsdf type="null"/><medium type="heterogeneous" name="interior"><volume type="constvolume" name="sigma_t">
+<shape type="cube"><bsdf type="null"/><medium type="homogeneous" name="interior"><volume type="constvolume" name="sigma_t">
 <transform name="to_world"><scale value="2"/></transform></volume></medium></shape>)",
                                                     R"(<integrator type="volpathmis">
 <boolean name="use_spectral_mis" value="false"/></integrator>)" +
