@@ -185,6 +185,8 @@ CompiledScene compileScene(const SceneDescription& description, const CompileOpt
     std::vector<PlacedShape> placed;
     placed.reserve(description.shapes.size());
     for (const ShapeDescription& shape : description.shapes) placed.push_back(placeShape(shape, scene.worldOrigin));
+    for (const PlacedShape& shape : placed)
+        scene.notes.insert(scene.notes.end(), shape.notes.begin(), shape.notes.end());
     Selection selection(description, placed, scene);
     compileMedia(selection.media(), scene.worldOrigin, limit, scene);
     compileTextures(description, selection.shapes(), scene);

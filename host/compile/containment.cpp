@@ -100,7 +100,7 @@ glm::dvec3 localPoint(const glm::dmat4& localFromScene, const glm::dvec3& point)
 /// Crossings of the ray from `point` with the mesh (Moller and Trumbore 1997, in double).
 bool oddCrossings(const PlacedShape& mesh, const glm::dvec3& point, const glm::dvec3& direction) {
     bool odd = false;
-    for (const glm::uvec3& index : mesh.source->mesh.triangles) {
+    for (const glm::uvec3& index : mesh.triangles) {
         const glm::dvec3 a = mesh.vertices[index.x];
         const glm::dvec3 e1 = mesh.vertices[index.y] - a, e2 = mesh.vertices[index.z] - a;
         const glm::dvec3 p = glm::cross(direction, e2);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "compile/boundary_relations.h"
 #include "compile/containment.h"
 
 namespace parhelion {
@@ -27,7 +28,7 @@ bool boundsMedium(const PlacedShape& shape) {
 class NestingResolver {
 public:
     NestingResolver(std::span<const PlacedShape> shapes, std::span<const MediumDescription> media)
-        : shapes_(shapes), media_(media) {
+        : shapes_(shapes), media_(media), relations_(shapes) {
         for (std::size_t i = 0; i < shapes.size(); ++i)
             if (boundsMedium(shapes[i])) boundaries_.push_back(i);
     }
@@ -57,13 +58,21 @@ private:
     void rejectOverlaps() const {
         for (std::size_t i = 0; i < boundaries_.size(); ++i)
             for (std::size_t j = 0; j < i; ++j) {
-                const PlacedShape &a = shapes_[boundaries_[i]], &b = shapes_[boundaries_[j]];
-                if (!a.isAnalyticSolid() || !b.isAnalyticSolid() || areApart(a, b)) continue;
-                if (encloses(a, b) != encloses(b, a)) continue;
-                throw InputError(a.source->where,
-                                 fmt::format("{}: media must be apart or one inside the other; it overlaps {}",
-                                             nameOf(*a.source), nameAndPlace(b)));
+                const std::size_t a = boundaries_[i], b = boundaries_[j];
+                if (relations_.between(a, b) != Relation::Overlap) continue;
+                throw InputError(
+                    shapes_[a].source->where,
+                    fmt::format("{}: media must be apart or one inside the other; it overlaps {}{}",
+                                nameOf(*shapes_[a].source), nameAndPlace(shapes_[b]), placeOfOverlap(a, b)));
             }
+    }
+
+    std::string placeOfOverlap(std::size_t a, std::size_t b) const {
+        const std::optional<glm::dvec3> where = relations_.overlapOf(a, b);
+        if (!where) return {};
+        const glm::dvec3 origin = glm::dvec3(shapes_[a].source->toWorld[3]) - glm::dvec3(shapes_[a].toScene[3]);
+        const glm::dvec3 p = *where + origin;
+        return fmt::format(", near ({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
     }
 
     /// The smallest shape around `inner` among those that `accept` takes.
@@ -71,7 +80,8 @@ private:
     std::optional<std::size_t> innermostAround(std::size_t inner, Predicate accept) const {
         std::optional<std::size_t> best;
         for (const std::size_t i : boundaries_)
-            if (isSmaller(inner, i) && accept(shapes_[i]) && isSmaller(i, best) && encloses(shapes_[i], shapes_[inner]))
+            if (isSmaller(inner, i) && accept(shapes_[i]) && isSmaller(i, best) &&
+                relations_.between(inner, i) == Relation::Within)
                 best = i;
         return best;
     }
@@ -79,7 +89,8 @@ private:
     std::optional<std::size_t> surroundingOf(std::size_t inner) const {
         const PlacedShape& shape = shapes_[inner];
         const std::optional<std::size_t> wanted = shape.source->exterior;
-        const auto certain = innermostAround(inner, [](const PlacedShape& outer) { return outer.isAnalyticSolid(); });
+        const auto certain = innermostAround(
+            inner, [](const PlacedShape& outer) { return outer.isAnalyticSolid() || outer.isMediumMesh(); });
         if (!wanted) {
             if (certain && shapes_[*certain].source->interior) failWithHint(shape, shapes_[*certain]);
             return certain;
@@ -120,6 +131,7 @@ private:
     std::span<const PlacedShape> shapes_;
     std::span<const MediumDescription> media_;
     std::vector<std::size_t> boundaries_;
+    BoundaryRelations relations_;
 };
 
 }  // namespace

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <utility>
 
+#include "compile/closed_mesh.h"
 #include "compile/transforms.h"
 #include "scene/transforms.h"
 
@@ -57,14 +60,12 @@ void checkIndices(const ShapeDescription& shape) {
 
 /// Divergence theorem, about a vertex of the mesh so that distance costs no digits.
 double enclosedVolume(const PlacedShape& placed) {
-    const Mesh& mesh = placed.source->mesh;
     double sum = 0.0;
-    for (const glm::uvec3& t : mesh.triangles) {
-        const glm::dvec3 apex = placed.vertices[mesh.triangles.front().x];
-        sum +=
-            glm::dot(placed.vertices[t.x] - apex, glm::cross(placed.vertices[t.y] - apex, placed.vertices[t.z] - apex));
+    for (const auto& [a, b, c] : surfaceOf(placed)) {
+        const glm::dvec3 apex = placed.vertices[placed.triangles.front().x];
+        sum += glm::dot(a - apex, glm::cross(b - apex, c - apex));
     }
-    return (placed.source->flipNormals ? -sum : sum) / 6.0;
+    return sum / 6.0;
 }
 
 void placeMesh(PlacedShape& placed) {
@@ -72,6 +73,7 @@ void placeMesh(PlacedShape& placed) {
     placed.vertices.reserve(placed.source->mesh.positions.size());
     for (const glm::dvec3& position : placed.source->mesh.positions)
         placed.vertices.emplace_back(placed.toScene * glm::dvec4(position, 1.0));
+    placed.triangles = placed.source->mesh.triangles;
     placed.volume = enclosedVolume(placed);
 }
 
@@ -85,7 +87,7 @@ void boundVertices(PlacedShape& placed) {
     if (placed.vertices.empty()) placed.lower = placed.upper = glm::dvec3(0.0);
 }
 
-void checkMediumBoundary(const PlacedShape& placed) {
+void checkMediumBoundary(PlacedShape& placed) {
     const ShapeDescription& shape = *placed.source;
     if (!placed.isNull() || !placed.mentionsMedia()) return;
     if (placed.kind == PlacedShape::Kind::Quad)
@@ -96,10 +98,9 @@ void checkMediumBoundary(const PlacedShape& placed) {
         throw InputError(shape.where, nameOf(shape) +
                                           ": flip_normals would put the interior medium outside, and "
                                           "unbounded media are not supported; remove it");
-    if (placed.kind == PlacedShape::Kind::Mesh && !(placed.volume > 0.0))
-        throw InputError(shape.where, fmt::format("{}: a medium needs a closed mesh with normals that point outwards "
-                                                  "(try flip_normals); got a signed volume of {}",
-                                                  nameOf(shape), placed.volume));
+    if (placed.kind != PlacedShape::Kind::Mesh) return;
+    placed.notes = closeMesh(placed);
+    std::ranges::move(checkInterior(placed), std::back_inserter(placed.notes));
 }
 
 }  // namespace
@@ -108,6 +109,25 @@ std::string nameOf(const ShapeDescription& shape) {
     static constexpr const char* kNames[] = {"mesh", "rectangle", "cube", "sphere"};
     const std::string kind = kNames[static_cast<int>(shape.type)];
     return shape.id.empty() ? kind : fmt::format("{} \"{}\"", kind, shape.id);
+}
+
+std::array<glm::dvec3, 3> cornersOf(const PlacedShape& mesh, std::uint32_t triangle) {
+    const glm::uvec3& t = mesh.triangles[triangle];
+    std::array<glm::dvec3, 3> corners{mesh.vertices[t.x], mesh.vertices[t.y], mesh.vertices[t.z]};
+    if (mesh.source->flipNormals) std::swap(corners[1], corners[2]);
+    return corners;
+}
+
+std::vector<std::array<glm::dvec3, 3>> surfaceOf(const PlacedShape& shape) {
+    std::vector<std::array<glm::dvec3, 3>> triangles;
+    for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) triangles.push_back(cornersOf(shape, t));
+    if (shape.kind != PlacedShape::Kind::Box) return triangles;
+    for (const auto& face : kBoxFaces)
+        for (const int k : {1, 2}) {
+            triangles.push_back({shape.vertices[face[0]], shape.vertices[face[k]], shape.vertices[face[k + 1]]});
+            if (shape.mirrored) std::swap(triangles.back()[1], triangles.back()[2]);
+        }
+    return triangles;
 }
 
 PlacedShape placeShape(const ShapeDescription& shape, const glm::dvec3& worldOrigin) {

@@ -24,9 +24,6 @@ bool isDegenerate(const TriangleVertices& t) {
     return 0.25 * glm::dot(normal, normal) <= 1e-30 * longest * longest;
 }
 
-/// Corners of a cube's faces, counterclockwise from outside; bits 0, 1, 2 of a corner are x, y, z.
-constexpr unsigned kCubeFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 constexpr unsigned kRectangleFace[4] = {0, 1, 3, 2};
 
 /// (u, v) of a corner of a cube on one of the faces above, or of a rectangle (face 6), as Mitsuba has them.
@@ -83,7 +80,7 @@ void TriangleSoup::addMesh(const PlacedShape& shape, std::uint32_t shapeIndex) {
     for (const glm::dvec3& vertex : shape.vertices)
         positions.push_back(toFloat(vertex, source.where, nameOf(source) + ": vertices"));
     const std::vector<glm::vec3> smooth = shadingNormals(shape);
-    for (const glm::uvec3& index : source.mesh.triangles) {
+    for (const glm::uvec3& index : shape.triangles) {
         TriangleVertices corners, shading{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
         TriangleUvs uv{glm::vec2(0.0f, 0.0f), glm::vec2(1.0f, 0.0f), glm::vec2(0.0f, 1.0f)};
         for (int k = 0; k < 3; ++k) {
@@ -109,7 +106,7 @@ void TriangleSoup::addFlat(const PlacedShape& shape, std::uint32_t shapeIndex) {
         std::array<glm::vec3, 4> corners;
         std::array<glm::vec2, 4> uv;
         for (int k = 0; k < 4; ++k) {
-            const unsigned corner = isCube ? kCubeFaces[face][k] : kRectangleFace[k];
+            const unsigned corner = isCube ? kBoxFaces[face][k] : kRectangleFace[k];
             corners[k] = toFloat(shape.vertices[corner], shape.source->where, nameOf(*shape.source) + ": corners");
             uv[k] = cornerUv(isCube ? face : 6, corner);
         }

@@ -2,6 +2,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
+#include <utility>
 
 #include "compile/compile_scene.h"
 
@@ -40,6 +41,39 @@ inline ShapeDescription tetrahedron(const std::string& id, const glm::dmat4& toW
     result.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     result.mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     return result;
+}
+
+/// Adds a cube of 12 outward triangles to a mesh; `split`: no face shares its vertices, as files with normals have it.
+inline void addCube(Mesh& mesh, const glm::dvec3& center, const glm::dvec3& halfSize, bool split = false,
+                    bool inwards = false) {
+    constexpr unsigned kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    const auto first = unsigned(mesh.positions.size());
+    const auto corner = [&](unsigned bits) {
+        return center + halfSize * (2.0 * glm::dvec3(bits & 1u, bits >> 1 & 1u, bits >> 2 & 1u) - 1.0);
+    };
+    for (unsigned bits = 0; bits < 8 && !split; ++bits) mesh.positions.push_back(corner(bits));
+    for (const auto& face : kFaces) {
+        unsigned v[4];
+        for (int k = 0; k < 4; ++k) {
+            v[k] = split ? unsigned(mesh.positions.size()) : first + face[k];
+            if (split) mesh.positions.push_back(corner(face[k]));
+        }
+        if (inwards) std::swap(v[1], v[3]);
+        mesh.triangles.insert(mesh.triangles.end(), {{v[0], v[1], v[2]}, {v[0], v[2], v[3]}});
+    }
+}
+
+inline ShapeDescription meshOf(const std::string& id, Mesh mesh, const glm::dmat4& toWorld = glm::dmat4(1.0)) {
+    ShapeDescription result = shape(ShapeDescription::Type::Mesh, id, toWorld);
+    result.mesh = std::move(mesh);
+    return result;
+}
+
+inline ShapeDescription meshCube(const std::string& id, const glm::dvec3& center, const glm::dvec3& halfSize) {
+    Mesh mesh;
+    addCube(mesh, center, halfSize);
+    return meshOf(id, std::move(mesh));
 }
 
 /// Turns a shape into a medium boundary.

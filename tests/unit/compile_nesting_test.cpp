@@ -79,6 +79,76 @@ TEST(MediumNesting, TouchingAndNearbyMediaAreAccepted) {
     for (const auto& [p, q] : pairs) EXPECT_EQ(inputErrorOf(sceneWith({boundary(p, 0), boundary(q, 1)})), "");
 }
 
+ShapeDescription meshOfCube(const std::string& id, const glm::dvec3& center, const glm::dvec3& half,
+                            double degrees = 0.0) {
+    Mesh mesh;
+    addCube(mesh, {}, {1, 1, 1}, /*split*/ true);
+    return meshOf(id, mesh, turned(center, degrees, {0, 0, 1}, half));
+}
+
+/// A cube of half size 3 with a cubic hole of half size 2.
+ShapeDescription hollowCube(const std::string& id) {
+    Mesh mesh;
+    addCube(mesh, {}, glm::dvec3(3));
+    addCube(mesh, {}, glm::dvec3(2), false, /*inwards*/ true);
+    return meshOf(id, mesh);
+}
+
+// Meshes by the rule of cubes and spheres.
+TEST(MediumNesting, OverlapsOfMeshesAreRefusedNamingBoth) {
+    const glm::dvec3 unit(1, 1, 1);
+    const std::vector<std::pair<ShapeDescription, ShapeDescription>> pairs = {
+        {meshOfCube("p", {}, unit), meshOfCube("q", {1.9, 1.9, 1.9}, unit)},
+        {meshOfCube("p", {}, unit), meshOfCube("q", {1, 0, 0}, unit)},  // along its faces: nothing pierces
+        {meshOfCube("p", {}, unit), meshOfCube("q", {2.3, 0, 0}, unit, 45)},
+        {meshOfCube("p", {}, unit), meshOfCube("q", {}, {0.1, 0.1, 5})},
+        {meshOfCube("p", {}, unit), meshOfCube("q", {}, unit)},  // coincident
+        {meshOfCube("p", {}, unit), cube("q", {1.9, 1.9, 1.9}, unit)},
+        {cube("p", {}, unit), meshOfCube("q", {0, 0, 1.5}, unit)},
+        {meshOfCube("p", {}, unit), sphere("q", {}, 1.2)},  // pokes out of the faces
+        {sphere("p", {}, 2.1), hollowCube("q")},            // pokes out of its hole
+        {sphere("p", {}, 3.5), hollowCube("q")},
+        {sphere("p", {1.7, 0, 0}, 1), meshOfCube("q", {}, unit)}};
+    for (const auto& [p, q] : pairs) {
+        const std::string message = inputErrorOf(sceneWith({boundary(p, 0), boundary(q, 1)}));
+        EXPECT_TRUE(contains(message, "\"p\"") && contains(message, "\"q\"") && contains(message, "overlap"))
+            << message;
+        EXPECT_TRUE(contains(message, "q.xml:7:5") && contains(message, "near (")) << message;
+    }
+}
+
+TEST(MediumNesting, TouchingAndNestedMeshesAreAccepted) {
+    const glm::dvec3 unit(1, 1, 1);
+    const std::vector<std::pair<ShapeDescription, ShapeDescription>> apart = {
+        {meshOfCube("p", {}, unit), meshOfCube("q", {2, 0, 0}, unit)},    // share a face,
+        {meshOfCube("p", {}, unit), meshOfCube("q", {2, 0.7, 0}, unit)},  // a part of one,
+        {meshOfCube("p", {}, unit), meshOfCube("q", {2, 2, 0}, unit)},    // an edge,
+        {meshOfCube("p", {}, unit), meshOfCube("q", {2, 2, 2}, unit)},    // a corner
+        {meshOfCube("p", {}, unit), meshOfCube("q", {2.0 - 1e-7, 0, 0}, unit)},
+        {meshOfCube("p", {}, unit), meshOfCube("q", {2.42, 0, 0}, unit, 45)},
+        {meshOfCube("p", {}, unit), cube("q", {2, 0, 0}, unit)},
+        {meshOfCube("p", {}, unit), sphere("q", {2, 0, 0}, 1)},
+        {sphere("p", {}, 2), hollowCube("q")},  // touches its hole from within
+        {meshOfCube("p", {}, {2, 2, 2}), hollowCube("q")},
+        {cube("p", {}, {2, 2, 2}), hollowCube("q")}};
+    for (const auto& [p, q] : apart) EXPECT_EQ(inputErrorOf(sceneWith({boundary(p, 0), boundary(q, 1)})), "");
+
+    const std::vector<std::pair<ShapeDescription, ShapeDescription>> nested = {
+        {meshOfCube("in", {}, unit), meshOfCube("out", {}, {2, 2, 2})},
+        {meshOfCube("in", {0, 0, 1}, unit), meshOfCube("out", {}, {2, 2, 2})},      // one face in common
+        {meshOfCube("in", {}, {1, 1, 0.5}), meshOfCube("out", {0, 0, 0.5}, unit)},  // five
+        {sphere("in", {}, 1), meshOfCube("out", {}, unit)},
+        {meshOfCube("in", {}, unit), sphere("out", {}, 1.7321)},
+        {cube("in", {}, unit), meshOfCube("out", {}, unit * 1.5, 45)},
+        {sphere("in", {2.5, 0, 0}, 0.5), hollowCube("out")}};  // in its wall
+    for (const auto& [in, out] : nested) {
+        const CompiledScene compiled = compileScene(sceneWith({boundary(in, 0, 1), boundary(out, 1)}));
+        EXPECT_EQ(compiled.shapes[0].exterior, 1u);
+        const std::string unnamed = inputErrorOf(sceneWith({boundary(in, 0), boundary(out, 1)}));
+        EXPECT_TRUE(contains(unnamed, "<ref name=\"exterior\" id=\"b\"/>")) << unnamed;
+    }
+}
+
 TEST(MediumNesting, NestedMediaMustNameTheirExterior) {
     const std::string message =
         inputErrorOf(sceneWith({boundary(cube("outer", {}, {2, 2, 2}), 0), boundary(sphere("inner", {}, 1), 1)}));
@@ -168,15 +238,18 @@ TEST(CameraMedium, AnOpaqueRoomFilledWithAMediumHoldsTheCamera) {
     EXPECT_FALSE(compiled.notes.empty());
 }
 
-TEST(MediumNesting, MeshesAreGivenTheBenefitOfTheDoubt) {
-    EXPECT_EQ(inputErrorOf(sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {0.4, 0.4, 0.4}, 0.3), 1)})),
-              "");
-    const CompiledScene nested =
-        compileScene(sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {0.2, 0.2, 0.2}, 0.1), 1, 0)}));
-    EXPECT_EQ(nested.shapes[1].exterior, 0u);
-    EXPECT_TRUE(
-        contains(inputErrorOf(sceneWith({boundary(tetrahedron("t"), 0), boundary(sphere("s", {4, 0, 0}, 0.1), 1, 0)})),
-                 "unbounded"));
+// Opaque meshes need not be closed: their bounds decide.
+TEST(CameraMedium, AnOpaqueMeshAroundItIsItsRoom) {
+    Mesh walls;
+    addCube(walls, {}, {3, 3, 3});
+    walls.triangles.pop_back();
+    ShapeDescription room = meshOf("room", walls);
+    room.interior = 0;
+    SceneDescription description = sceneWith({boundary(sphere("s", {}, 1), 1, 0), room});
+    description.camera.toWorld = translation({-2, -1, 0.5});
+    const CompiledScene compiled = compileScene(description);
+    EXPECT_EQ(compiled.constants.camera.inside, 1u);
+    EXPECT_EQ(compiled.shapes[0].exterior, 1u);
 }
 
 TEST(CompiledIntegrator, PathIgnoresMediaWithANote) {
