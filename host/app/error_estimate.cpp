@@ -16,10 +16,11 @@ std::optional<double> estimateRelativeError(const Film& film) {
         for (int channel = 0; channel < 3; ++channel) {
             meanSum += mean[channel];
             // Rounding can leave a constant pixel a hair below zero.
-            varianceSum += std::max(0.0, square[channel] - mean[channel] * mean[channel]) / (count - 1);
+            const double spread = square[channel] - mean[channel] * mean[channel];
+            varianceSum += (spread < 0.0 ? 0.0 : spread) / (count - 1);  // NaN stays: a sum beyond float
         }
     }
-    if (!(meanSum > 0)) return std::nullopt;
+    if (!(meanSum > 0) || !std::isfinite(meanSum) || !std::isfinite(varianceSum)) return std::nullopt;
     const double values = 3.0 * static_cast<double>(film.pixels.size());
     return std::sqrt(varianceSum / values) / (meanSum / values);
 }

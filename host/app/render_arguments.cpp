@@ -11,7 +11,7 @@ constexpr const char* kExamples = R"(Examples:
   parhelion render cloud.xml --backend reference-double --spp 16 -o oracle.exr
 
 Ctrl-C writes the image so far and exits with 130; a second one aborts.
-Exit codes: 0 done, 1 samples dropped or majorants violated, 2 bad input, 3 device or memory, 130 interrupted.)";
+Exit codes: 0 done, 1 samples dropped, majorants violated or values out of range, 2 bad input, 3 device or memory, 130 interrupted.)";
 
 constexpr std::int64_t kMaxSamples = std::int64_t{1} << 40;
 constexpr std::int64_t kMaxUint = 0xffffffff;
@@ -90,7 +90,7 @@ Command addRenderCommand(CommandLine& program, RenderArguments& arguments) {
     addQualityOptions(command, arguments);
     command.addFlag("--bake-error", arguments.bakeError, kBakeErrorHelp);
     command.addFlag("--allow-anomalies", arguments.allowAnomalies,
-                    "exit with 0 although samples were dropped as not finite or majorants violated");
+                    "exit with 0 although samples were dropped, majorants violated or values out of range");
     command.addFlag("--json", arguments.json, "print the report as JSON");
     command.addFlag("--quiet", arguments.quiet, "print errors only");
     command.setFooter(kExamples);

@@ -183,8 +183,8 @@ int judge(const RenderArguments& arguments, const RenderReport& report) {
     if (report.interrupted()) return kExitInterrupted;
     if (!report.hasAnomalies() || arguments.allowAnomalies) return kExitSuccess;
     fmt::print(stderr,
-               "parhelion: error: the image was written, but samples were dropped or majorants violated "
-               "(--allow-anomalies accepts it)\n");
+               "parhelion: error: the image was written, but samples were dropped, majorants violated or values out of "
+               "the range of its 32-bit channels (scale the lights); --allow-anomalies accepts it\n");
     return kExitFailed;
 }
 
@@ -209,8 +209,8 @@ int runRenderCommand(const RenderArguments& arguments) {
         fmt::print(stderr, "parhelion: interrupted before the first samples were done; nothing was written\n");
         return kExitInterrupted;
     }
-    const RenderReport report = makeReport(arguments, files, scene, settings, outcome, std::move(clouds));
-    Image image = toImage(outcome.film);
+    RenderReport report = makeReport(arguments, files, scene, settings, outcome, std::move(clouds));
+    Image image = toImage(outcome.film, &report.range);
     addAttributes(report, image);
     {
         const auto lock = interruption.holdOff();

@@ -19,7 +19,7 @@ struct CounterName {
 };
 
 constexpr CounterName kCounterNames[] = {
-    {shared::kCounterNonFinite, "nonFinite", "samples dropped because not finite"},
+    {shared::kCounterNonFinite, "nonFinite", "samples dropped because not finite, or beyond single precision"},
     {shared::kCounterMajorantViolations, "majorantViolations", "densities above their majorant"},
     {shared::kCounterNegative, "negative", "samples with a negative channel"},
     {shared::kCounterPathsFinished, "pathsFinished", "paths"},
@@ -36,7 +36,7 @@ double RenderReport::samplesPerSecond() const {
 }
 
 bool RenderReport::hasAnomalies() const {
-    return counters[shared::kCounterNonFinite] > 0 || counters[shared::kCounterMajorantViolations] > 0;
+    return counters[shared::kCounterNonFinite] > 0 || counters[shared::kCounterMajorantViolations] > 0 || range.any();
 }
 
 void addAttributes(const RenderReport& report, Image& image) {
@@ -56,6 +56,8 @@ void addAttributes(const RenderReport& report, Image& image) {
     attributes["parhelion.quality"] = qualityKey(report.quality);
     for (const auto& [counter, identifier, meaning] : kCounterNames)
         attributes[fmt::format("parhelion.{}", identifier)] = static_cast<std::int64_t>(report.counters[counter]);
+    attributes["parhelion.aboveRange"] = static_cast<std::int64_t>(report.range.above);
+    attributes["parhelion.belowRange"] = static_cast<std::int64_t>(report.range.below);
 }
 
 nlohmann::ordered_json toJson(const RenderReport& report) {
@@ -88,6 +90,8 @@ nlohmann::ordered_json toJson(const RenderReport& report) {
     if (report.relativeError) json["relativeError"] = *report.relativeError;
     for (const auto& [counter, identifier, meaning] : kCounterNames)
         json["counters"][identifier] = report.counters[counter];
+    json["counters"]["aboveRange"] = report.range.above;
+    json["counters"]["belowRange"] = report.range.below;
     return json;
 }
 
@@ -109,6 +113,13 @@ std::string describe(const RenderReport& report) {
         if (report.counters[counter] > 0)
             text +=
                 fmt::format("counted   {} {}\n", formatCount(static_cast<double>(report.counters[counter])), meaning);
+    if (report.range.above > 0)
+        text += fmt::format("counted   {} values of the image beyond single precision, written as 3.4e38\n",
+                            formatCount(static_cast<double>(report.range.above)));
+    if (report.range.below > 0)
+        text +=
+            fmt::format("counted   {} means or variances too small for single precision; variances are bounds there\n",
+                        formatCount(static_cast<double>(report.range.below)));
     return text;
 }
 

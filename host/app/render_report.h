@@ -9,7 +9,7 @@
 
 #include "compile/bake_clouds.h"
 #include "compile/render_settings.h"
-#include "image/image.h"
+#include "image/film_image.h"
 #include "shared/path_types.h"
 
 namespace parhelion::app {
@@ -29,12 +29,14 @@ struct RenderReport {
     EffectSet effects;
     Quality quality;
     std::array<std::uint64_t, shared::kCounterCount> counters{};
+    RangeFaults range;  ///< values that the image cannot hold
     std::vector<CloudBakeReport> clouds;
     std::vector<std::string> notes;
 
     bool interrupted() const { return samples < samplesWanted; }
     double samplesPerSecond() const;
-    /// Samples dropped as not finite, or taken with a majorant below the density: the image cannot be trusted.
+    /// Samples dropped as not finite, or taken with a majorant below the density, or values out of range: the image
+    /// cannot be trusted.
     bool hasAnomalies() const;
 };
 

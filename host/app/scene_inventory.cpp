@@ -9,10 +9,10 @@ namespace parhelion::app {
 
 namespace {
 
-LightEntry describeLight(const shared::Light& light) {
+LightEntry describeLight(const CompiledScene& scene, const shared::Light& light) {
     static constexpr const char* kTypes[] = {"directional", "point",       "parallelogram",   "sphere",
                                              "mesh",        "environment", "environment map", "sky"};
-    return {kTypes[light.type], light.emission, light.selection,
+    return {kTypes[light.type], glm::vec3(scene.radianceUnit * glm::dvec3(light.emission)), light.selection,
             light.type == shared::kLightMesh ? light.triangleCount : 0};
 }
 
@@ -77,7 +77,7 @@ SceneInventory takeInventory(const CompiledScene& scene) {
         std::count_if(scene.shapes.begin(), scene.shapes.end(),
                       [](const shared::Shape& shape) { return (shape.flags & shared::kShapeNull) != 0; }));
     for (const shared::Light& light : std::span(constants.lights, constants.lightCount))
-        inventory.lights.push_back(describeLight(light));
+        inventory.lights.push_back(describeLight(scene, light));
     for (const shared::Medium& medium : std::span(constants.media, constants.mediumCount))
         inventory.media.push_back(describeMedium(scene, medium));
     return inventory;

@@ -18,6 +18,7 @@ struct PixelRect {
 struct Film {
     glm::uvec2 filmSize{0, 0};                   ///< whole film, pixels
     PixelRect crop;                              ///< the part rendered
+    double radianceUnit = 1.0;                   ///< a power of two: what 1 stands for in pixels and layers
     std::uint64_t samples = 0;                   ///< samples per pixel, the same for every pixel
     std::vector<std::uint64_t> pixelSamples;     ///< of a render under way: samples in each of `pixels`, or empty
     std::vector<shared::FilmPixel> pixels;       ///< crop.size.x * crop.size.y, row by row from the top

@@ -11,8 +11,9 @@ namespace parhelion {
 /// The texture of a surface's reflectance or radiance: the record, or the one colour that it is.
 struct SurfaceTexture {
     std::uint32_t index = shared::kNone;
-    glm::dvec3 tint{1.0};  ///< factor of the untextured value
-    glm::dvec3 mean{0.0};  ///< colour, averaged over the texture; of no meaning without one
+    glm::dvec3 tint{1.0};     ///< factor of the untextured value
+    glm::dvec3 mean{0.0};     ///< colour, averaged over the texture; of no meaning without one
+    glm::dvec3 largest{1.0};  ///< of each channel, of what the tint multiplies
 };
 
 /// A shape that made it into the compiled scene.

@@ -11,6 +11,7 @@
 #include "compile/compile_environment.h"
 #include "compile/compile_sky.h"
 #include "compile/luminance.h"
+#include "compile/radiance_unit.h"
 #include "compile/transforms.h"
 #include "compile/triangle_soup.h"
 
@@ -65,8 +66,9 @@ public:
         if (!source.radiance || !hasSurface) return;
         const SurfaceTexture& texture = shapes_[shapeIndex].radiance;
         const glm::dvec3 tinted = *source.radiance * texture.tint;
-        const glm::vec3 radiance = toFloat(tinted, source.where, nameOf(source) + ": radiance");
-        if (isBlack(radiance)) return noteBlack(nameOf(source));
+        const glm::vec3 radiance =
+            radianceOf(tinted, texture.index != shared::kNone, source.where, nameOf(source) + ": radiance");
+        if (isBlack(radiance)) return noteBlack(nameOf(source), tinted);
         const glm::dvec3 mean = texture.index == shared::kNone ? tinted : tinted * texture.mean;
         shared::Light light{};
         light.texture = texture.index;
@@ -77,7 +79,8 @@ public:
         // From outside, where it would be sampled, a sphere that emits inwards alone is dark.
         const bool inwards = sides == 1.0 && light.type == shared::kLightSphere &&
                              (scene_.shapes[shapeIndex].flags & shared::kShapeFlipNormal) != 0;
-        append({light, inwards ? 0.0 : sides * kPi * area * luminance(mean), shapeIndex}, source.where);
+        append({light, inwards ? 0.0 : sides * kPi * area * luminance(mean / scene_.radianceUnit), shapeIndex},
+               source.where);
     }
 
     void addEmitter(const EmitterDescription& emitter) {
@@ -89,7 +92,7 @@ public:
         shared::Light light{};
         light.texture = shared::kNone;
         light.emission = toFloat(emitter.value, emitter.where, name);
-        if (isBlack(light.emission)) return noteBlack(name);
+        if (isBlack(light.emission)) return noteBlack(name, emitter.value);
         light.primitive = shared::kNone;
         const double flux = luminance(light.emission);
         if (sampleNoLight_ && isDelta(emitter)) return noteLost(name);
@@ -119,7 +122,7 @@ public:
             EmitterDescription uniform;
             uniform.where = emitter.where;
             uniform.value = glm::dvec3(emitter.map.texels.front()) * emitter.value;
-            return uniform.value == glm::dvec3(0.0) ? noteBlack("environment map") : addEmitter(uniform);
+            return uniform.value == glm::dvec3(0.0) ? noteBlack("environment map", uniform.value) : addEmitter(uniform);
         }
         const bool scatteringCounts = scene_.constants.scatterSamples > 0.0f;
         if (emitter.misCompensation && !scatteringCounts)
@@ -135,7 +138,7 @@ public:
             EmitterDescription uniform;
             uniform.where = emitter.where;
             uniform.value = skyGradientAt(emitter.sky, 0.0);
-            return uniform.value == glm::dvec3(0.0) ? noteBlack("sky") : addEmitter(uniform);
+            return uniform.value == glm::dvec3(0.0) ? noteBlack("sky", uniform.value) : addEmitter(uniform);
         }
         const glm::dvec3 mean = compileSky(emitter.sky, emitter.where, scene_);
         const bool sampled =
@@ -146,7 +149,7 @@ public:
     /// A light that shines from everywhere, of the given mean radiance.
     void addSurrounding(std::uint32_t type, const char* name, const glm::dvec3& mean, bool sampled,
                         const SourceLocation& where) {
-        if (mean == glm::dvec3(0.0)) return noteBlack(name);
+        if (mean == glm::dvec3(0.0)) return noteBlack(name, mean);
         shared::Light light{};
         light.emission = glm::vec3(mean);  // for those who list lights
         light.type = type;
@@ -180,7 +183,29 @@ private:
         std::uint32_t shape;  ///< that emits it, or kNone
     };
 
-    void noteBlack(const std::string& name) { scene_.notes.push_back(fmt::format("{}: its light is black", name)); }
+    /// @param value  as given, which single precision took for 0.
+    void noteBlack(const std::string& name, const glm::dvec3& value) {
+        scene_.notes.push_back(value == glm::dvec3(0.0)
+                                   ? fmt::format("{}: its light is black", name)
+                                   : fmt::format("{}: its light is too faint for single precision, or beside the "
+                                                 "scene's brightest light, and was dropped",
+                                                 name));
+    }
+
+    /// In multiples of the scene's unit.
+    glm::vec3 radianceOf(const glm::dvec3& value, bool tints, const SourceLocation& where,
+                         const std::string& subject) const {
+        toFloat(value, where, subject);
+        const glm::vec3 result(value / scene_.radianceUnit);
+        // Beside bright texels a tint may fall below float, and would take the digits of their product with it.
+        for (int c = 0; c < 3 && tints; ++c)
+            if (value[c] > 0.0 && result[c] < std::numeric_limits<float>::min())
+                throw InputError(where,
+                                 fmt::format("{} must not be below the scene's brightest light, about {:.3g}, by more "
+                                             "than single precision spans (1e38); got {}",
+                                             subject, scene_.radianceUnit, value[c]));
+        return result;
+    }
 
     void noteLost(const std::string& name) {
         scene_.notes.push_back(fmt::format("{}: its light is lost, for scattering alone never finds it", name));
@@ -253,9 +278,11 @@ void rejectSecondEnvironment(const SceneDescription& description) {
 void compileLights(const SceneDescription& description, std::span<const KeptShape> shapes,
                    std::span<const EmissiveGeometry> geometry, bool sampleEveryLight, CompiledScene& scene) {
     rejectSecondEnvironment(description);
+    scene.radianceUnit = chooseRadianceUnit(description, shapes, sceneRadius(shapes));
     LightCompiler lights(shapes, geometry, sampleEveryLight, scene);
     for (std::uint32_t i = 0; i < shapes.size(); ++i) lights.addArea(i);
-    for (const EmitterDescription& emitter : description.emitters) lights.addEmitter(emitter);
+    for (const EmitterDescription& emitter : description.emitters)
+        lights.addEmitter(scene.radianceUnit == 1.0 ? emitter : inUnits(emitter, scene.radianceUnit));
     lights.finish();
 }
 

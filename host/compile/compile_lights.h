@@ -7,8 +7,8 @@
 
 namespace parhelion {
 
-/// Writes the lights, their selection probabilities, and Shape.light. Lights that are sampled come first; within both
-/// groups area lights in shape order, then emitters.
+/// Writes the lights, in multiples of the radianceUnit that it chooses, their selection probabilities, and Shape.light.
+/// Lights that are sampled come first; within both groups area lights in shape order, then emitters.
 ///
 /// A light is selected with probability 0.5 / n + 0.5 * its share of the power of all n sampled lights, in multiples of
 /// 2^-24: exactly what comparing a 24-bit uniform with `cumulative` gives. Black lights are dropped with a note.

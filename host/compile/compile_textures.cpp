@@ -47,17 +47,20 @@ public:
         if (const auto found = added_.find(index); found != added_.end()) return found->second;
         const TextureDescription& texture = textures_[index];
         SurfaceTexture result;
-        glm::dvec3 first(0.0);
+        glm::dvec3 first(0.0), largest(0.0);
         std::size_t count = 0, same = 0;
         forEachColor(texture, [&](const glm::dvec3& color) {
             if (count == 0) first = color;
             same += color == first;
+            largest = glm::max(largest, color);
             result.mean += (color - result.mean) / double(++count);
         });
-        if (same == count)
+        if (same == count) {
             result.mean = result.tint = first;
-        else
+        } else {
             result.index = write(texture);
+            result.largest = largest;
+        }
         return added_[index] = result;
     }
 

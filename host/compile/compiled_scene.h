@@ -82,6 +82,7 @@ struct CompiledScene {
     glm::uvec2 cropOffset{0}, cropSize{0};
     std::uint64_t sampleCount = 16;
     std::uint32_t seed = 0;          ///< the scene's choice of random numbers
+    double radianceUnit = 1.0;       ///< a power of two: what 1 stands for in the radiance of lights and film
     glm::dvec3 worldOrigin{0.0};     ///< world position of this scene's origin (the camera)
     std::vector<std::string> notes;  ///< what a user should know (dropped lights, ...)
 

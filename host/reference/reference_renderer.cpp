@@ -64,6 +64,7 @@ Film render(const CompiledScene& scene, const RenderSettings& settings, const st
     Film film;
     film.filmSize = scene.filmSize;
     film.crop = {scene.cropOffset, scene.cropSize};
+    film.radianceUnit = scene.radianceUnit;
     film.pixels.resize(std::size_t(scene.cropSize.x) * scene.cropSize.y);
     film.features.resize(film.pixels.size());
     film.depthLayers = scene.constants.depthLayers;

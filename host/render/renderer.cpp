@@ -191,6 +191,7 @@ Film Renderer::filmSoFar() {
     Film film;
     film.filmSize = s.scene.filmSize;
     film.crop = {s.scene.cropOffset, s.scene.cropSize};
+    film.radianceUnit = s.scene.radianceUnit;
     film.samples = s.windowStart;
     if (s.windowSize != 0) film.pixelSamples = s.samplesByPixel();
     film.pixels = s.pass.film();

@@ -14,6 +14,9 @@ void addCompensated(inout vec3 high, inout vec3 low, vec3 value) {
     low = rest;
 }
 
+// Whether the film can hold a sample and its square: a number, and not too large.
+bool fitsFilm(vec3 radiance) { return all(lessThan(abs(radiance), vec3(kLargestSample))); }
+
 void accumulate(inout FilmPixel pixel, vec3 radiance) {
     addCompensated(pixel.sumHigh, pixel.sumLow, radiance);
     addCompensated(pixel.squareHigh, pixel.squareLow, radiance * radiance);

@@ -38,9 +38,9 @@ void count(uint counter, uint value) {
     if (subgroupElect() && sum > 0u) atomicAdd(counters[counter], sum);
 }
 
-// Shader only: adds a finished path to the film; what is not a number counts as zero and is reported.
+// Shader only: adds a finished path to the film; what that cannot hold counts as zero and is reported.
 void finishPath(inout Path p, inout FilmPixel pixel, inout uvec3 anomalies) {
-    bool bad = any(isnan(p.radiance)) || any(isinf(p.radiance));
+    bool bad = !fitsFilm(p.radiance);
     bool negative = any(lessThan(p.radiance, vec3(0.0)));
     anomalies += uvec3(1u, bad ? 1u : 0u, negative && !bad ? 1u : 0u);
     accumulate(pixel, bad ? vec3(0.0) : p.radiance);

@@ -6,6 +6,9 @@
 
 SHARED_BEGIN
 
+// A sample whose channels are not all below this is dropped and counted: its square would leave the range of float. 2^63
+SHARED_CONST(float, kLargestSample, 9223372036854775808.0f);
+
 // Compensated sums over a pixel's samples: value = high + low (Kahan). 48 bytes a pixel.
 struct FilmPixel {
     vec3 sumHigh;

@@ -29,7 +29,7 @@ Film onePixel(std::uint64_t samples) {
 
 TEST(FilmImage, MeanOfAMillionEqualSamplesIsExact) {
     // A naive float32 sum is 1 % off here (0.1) and 0.1 % (1/3).
-    for (const float value : {0.1f, 1.0f / 3.0f, 1e-20f, 1e20f}) {
+    for (const float value : {0.1f, 1.0f / 3.0f, 1e-15f, 1e18f}) {
         Film film = onePixel(1'000'000);
         for (int i = 0; i < 1'000'000; ++i) addSample(film.pixels[0], glm::vec3(value, 0, 1));
         const Image image = toImage(film);

@@ -18,5 +18,5 @@ void probeItem() {
     probeOutput(2u, vec4(pixel.sumLow, low.y));
     probeOutput(3u, vec4(pixel.squareHigh, low.z));
     probeOutput(4u, vec4(pixel.squareLow, 0.0));
-    probeOutput(5u, vec4(naive, 0.0));
+    probeOutput(5u, vec4(naive, fitsFilm(a.xyz) ? 1.0 : 0.0));
 }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "support/gpu_fixture.h"
 #include "support/parity_report.h"
 #include "support/stress.h"
@@ -86,6 +89,34 @@ TEST(FilmParity, OneCompensatedSumAgreesToTheBit) {
             EXPECT_TRUE(parity.near(rows[i][c], high)) << i;
             EXPECT_TRUE(parity.near(rows[i + 1 + std::size_t(c)].w, low)) << i;
         }
+}
+
+TEST(FilmParity, BothSidesTakeTheSameSamples) {
+    const float below = std::nextafter(shared::kLargestSample, 0.0f);
+    const float values[] = {0,
+                            1,
+                            -3,
+                            1e-40f,
+                            below,
+                            -below,
+                            shared::kLargestSample,
+                            -1e30f,
+                            3e38f,
+                            std::numeric_limits<float>::infinity(),
+                            std::nanf("")};
+    std::vector<glm::vec4> inputs;
+    for (const float value : values)
+        for (int channel = 0; channel < 3; ++channel) {
+            glm::vec4 sample(1, 0, 2, 0);
+            sample[channel] = value;
+            inputs.push_back(sample);
+            inputs.resize(inputs.size() + 5, glm::vec4(0));
+        }
+    const auto rows = test::probe("parity/film.comp", 0, inputs, 6, 6);
+    Parity parity("integrator/film", "fitsFilm", 0);
+    for (std::size_t i = 0; i < rows.size(); i += 6)
+        EXPECT_TRUE(parity.near(rows[i + 5].w, reference::fitsFilm<float>(glm::vec3(inputs[i])) ? 1.0f : 0.0f))
+            << i / 18;
 }
 
 }  // namespace

@@ -24,10 +24,18 @@ void addCompensated(float& high, float& low, Real value) {
     }
 }
 
-/// Adds one sample to a pixel. A non-finite sample counts as zero; it and negative ones are counted.
+/// Whether a sample and its square stay within float, in which films are kept: false for what is no number.
+template <typename Real>
+bool fitsFilm(const Vec3<Real>& radiance) {
+    for (int c = 0; c < 3; ++c)
+        if (!(std::abs(radiance[c]) < Real(shared::kLargestSample))) return false;
+    return true;
+}
+
+/// Adds one sample to a pixel. A sample that does not fit counts as zero; it and negative ones are counted.
 template <typename Real>
 void accumulate(shared::FilmPixel& pixel, Vec3<Real> radiance, Counters& counters) {
-    if (!std::isfinite(radiance.x + radiance.y + radiance.z)) {
+    if (!fitsFilm(radiance)) {
         ++counters[shared::kCounterNonFinite];
         radiance = Vec3<Real>(0);
     }
