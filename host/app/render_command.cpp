@@ -17,6 +17,7 @@
 #include "base/files.h"
 #include "base/memory.h"
 #include "compile/compile_scene.h"
+#include "gpu/cache.h"
 #include "image/film_image.h"
 
 namespace parhelion::app {
@@ -200,6 +201,8 @@ int runRenderCommand(const RenderArguments& arguments) {
     const CompiledScene scene = compile(arguments, description);
     requireMemory(scene.cropSize, scene.constants.depthLayers);
     const RenderSettings settings = chooseSettings(arguments, scene);
+    if (const std::string note = device ? gpu::cacheNote() : ""; !arguments.quiet && !note.empty())
+        fmt::print(stderr, "parhelion: note: {}\n", note);
     if (!arguments.quiet)
         for (const std::string& note : scene.notes) fmt::print(stderr, "parhelion: note: {}\n", note);
     ProgressDisplay progress(stderr, arguments.quiet);

@@ -24,30 +24,62 @@ bool isOwnWritableFolder(const fs::path& folder) {
            ::access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-std::vector<fs::path> cacheRoots() {
-    std::vector<fs::path> roots;
+struct Root {
+    fs::path path;
+    bool temporary;
+};
+
+std::vector<Root> cacheRoots() {
+    std::vector<Root> roots;
     const char* cacheHome = std::getenv("XDG_CACHE_HOME");
-    if (cacheHome && fs::path(cacheHome).is_absolute()) roots.push_back(fs::path(cacheHome) / "parhelion");
+    if (cacheHome && fs::path(cacheHome).is_absolute()) roots.push_back({fs::path(cacheHome) / "parhelion", false});
     const char* home = std::getenv("HOME");
-    if (home && fs::path(home).is_absolute()) roots.push_back(fs::path(home) / ".cache" / "parhelion");
+    if (home && fs::path(home).is_absolute()) roots.push_back({fs::path(home) / ".cache" / "parhelion", false});
     std::error_code failed;
     const fs::path temporary = fs::temp_directory_path(failed);
-    if (!failed) roots.push_back(temporary / fmt::format("parhelion-{}", ::geteuid()));
+    if (!failed) roots.push_back({temporary / fmt::format("parhelion-{}", ::geteuid()), true});
     return roots;
+}
+
+/// The folder `part` of a root, made when missing; empty where it cannot be written.
+fs::path folderIn(const fs::path& root, std::string_view part) {
+    std::error_code failed;
+    fs::create_directories(root, failed);
+    if (!isOwnWritableFolder(root)) return {};
+    const fs::path folder = root / part;
+    fs::create_directories(folder, failed);
+    return isOwnWritableFolder(folder) ? folder : fs::path();
 }
 
 }  // namespace
 
 fs::path cacheFolder(std::string_view part) {
-    for (const fs::path& root : cacheRoots()) {
-        std::error_code failed;
-        fs::create_directories(root, failed);
-        if (!isOwnWritableFolder(root)) continue;
-        const fs::path folder = root / part;
-        fs::create_directories(folder, failed);
-        if (isOwnWritableFolder(folder)) return folder;
-    }
+    for (const Root& root : cacheRoots())
+        if (const fs::path folder = folderIn(root.path, part); !folder.empty()) return folder;
     return {};
+}
+
+std::string cacheNote() {
+    std::string refused;
+    for (const Root& root : cacheRoots()) {
+        const fs::path folder = folderIn(root.path, "spirv");
+        if (folder.empty()) {
+            refused += (refused.empty() ? "" : " or ") + root.path.string();
+            continue;
+        }
+        if (!root.temporary) return {};
+        return fmt::format(
+            "{}; compiled shaders are kept in {}, and are compiled again, for a second or more, once that is emptied: "
+            "set "
+            "XDG_CACHE_HOME to a folder that can be written",
+            refused.empty() ? "neither XDG_CACHE_HOME nor HOME names a folder" : refused + " cannot be written",
+            root.path.string());
+    }
+    return fmt::format(
+        "{} cannot be written; shaders are compiled at every start, for a second or more: set XDG_CACHE_HOME to a "
+        "folder "
+        "that can be written",
+        refused.empty() ? "the temporary folder" : refused);
 }
 
 std::uint64_t contentHash(std::span<const std::byte> bytes, std::uint64_t hash) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,11 @@ namespace parhelion::gpu {
 /// ~/.cache/parhelion, or a folder of this user in the system's temporary folder, whichever can be written first.
 /// Empty when none can: callers then go without a cache.
 std::filesystem::path cacheFolder(std::string_view part);
+
+/// What a user should know of where compiled shaders are kept: empty unless neither $XDG_CACHE_HOME nor ~/.cache can be
+/// written, which makes starts slow where the temporary folder is emptied, or always where that cannot be written
+/// either.
+std::string cacheNote();
 
 /// 64-bit FNV-1a of the bytes, continuing from `hash`.
 std::uint64_t contentHash(std::span<const std::byte> bytes, std::uint64_t hash = 0xcbf29ce484222325ull);
