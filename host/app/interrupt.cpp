@@ -32,7 +32,9 @@ void Interruption::waitForSignals() {
     for (int signal = 0; sigwait(&signals_, &signal) == 0 && !closing_;) {
         if (signal == SIGUSR1) continue;
         if (deferred_ && !requested_.exchange(true)) {
-            fmt::print(stderr, "\nparhelion: stopping once the samples begun are done; interrupt again to abort\n");
+            fmt::print(stderr,
+                       "\nparhelion: stopping within two seconds or so, with the samples that all pixels have; "
+                       "interrupt again to abort\n");
             continue;
         }
         const std::scoped_lock lock(outputs_);

@@ -71,10 +71,10 @@ void requireInside(const PixelRect& crop, glm::uvec2 film) {
 /// The system may promise more memory than there is and end the process when it is used: ask first.
 void requireMemory(glm::uvec2 pixels, std::uint32_t depthLayers) {
     constexpr std::size_t kImageChannels = 14;  // those of toImage
-    // The film is held by the back end and, at the end, copied from it.
+    // The film is held by the back end, with two copies of it as it was, and, at the end, copied from it.
     constexpr double kBytesPerPixel =
-        2 * (sizeof(shared::FilmPixel) + sizeof(shared::FeaturePixel)) + kImageChannels * sizeof(float);
-    const double layerBytes = (2.0 * sizeof(shared::LayerPixel) + 3 * sizeof(float)) * depthLayers;
+        4 * sizeof(shared::FilmPixel) + 2 * sizeof(shared::FeaturePixel) + kImageChannels * sizeof(float);
+    const double layerBytes = (4.0 * sizeof(shared::LayerPixel) + 3 * sizeof(float)) * depthLayers;
     const double needed = (kBytesPerPixel + layerBytes) * pixels.x * pixels.y;
     const double allowed = 0.5 * static_cast<double>(physicalMemoryBytes());
     if (needed > allowed)

@@ -15,6 +15,26 @@ void addCounters(Counters& sum, const Counters& part) {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[i];
 }
 
+/// Two seconds after a stop is asked for, what is left of a pass is not worth waiting for.
+class Patience {
+public:
+    explicit Patience(const std::atomic<bool>* stop) : stop_(stop) {}
+
+    /// Also starts the clock, when the stop is first seen.
+    bool isOver() {
+        if (!stop_ || !*stop_) return false;
+        const std::int64_t now = Clock::now().time_since_epoch().count();
+        std::int64_t began = 0;
+        if (began_.compare_exchange_strong(began, now)) return false;
+        return Clock::duration(now - began) >= std::chrono::seconds(2);
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    const std::atomic<bool>* stop_;
+    std::atomic<std::int64_t> began_ = 0;
+};
+
 /// Calls body(pixel on the film, index into the crop, counters) for every pixel of the crop, and sums the counters.
 template <typename Body>
 void forEachPixel(Film& film, const Body& body) {
@@ -38,18 +58,23 @@ void renderFeatures(const SceneView<Real>& scene, const RenderSettings& settings
     film.featureSamples = settings.featureSamples;
 }
 
-/// Adds samples [first, first + count) to every pixel.
+/// Adds samples [first, first + count) to every pixel. False where patience was over before all were done.
 template <typename Real>
-void renderPass(const SceneView<Real>& scene, const RenderSettings& settings, std::uint64_t first, std::uint64_t count,
-                Film& film) {
+bool renderPass(const SceneView<Real>& scene, const RenderSettings& settings, std::uint64_t first, std::uint64_t count,
+                Patience& patience, Film& film) {
+    std::atomic<bool> isCutOff = false;
     forEachPixel(film, [&](glm::uvec2 pixel, std::size_t index, Counters& counters) {
         NoTrace trace;
         shared::LayerPixel* layers = film.layers.empty() ? nullptr : &film.layers[index * film.depthLayers];
-        for (std::uint64_t s = first; s < first + count; ++s)
+        for (std::uint64_t s = first; s < first + count && !isCutOff; ++s) {
             accumulate(film.pixels[index],
                        tracePath(scene, settings.quality, settings.seed, pixel, s, counters, trace, layers), counters);
+            if (patience.isOver()) isCutOff = true;
+        }
     });
+    if (isCutOff) return false;
     film.samples += count;
+    return true;
 }
 
 }  // namespace
@@ -71,10 +96,21 @@ Film render(const CompiledScene& scene, const RenderSettings& settings, const st
     film.layers.resize(film.pixels.size() * film.depthLayers);
     renderFeatures(view, settings, film);
     std::uint64_t passSamples = 1;
+    Patience patience(stop);
+    struct {
+        std::vector<shared::FilmPixel> pixels;
+        std::vector<shared::LayerPixel> layers;
+    } before;  // the pass under way
     while (film.samples < settings.sampleCount && !(stop && *stop)) {
         const auto begin = Clock::now();
         const std::uint64_t count = std::min(passSamples, settings.sampleCount - film.samples);
-        renderPass(view, settings, settings.firstSample + film.samples, count, film);
+        before.pixels = film.pixels;
+        before.layers = film.layers;
+        if (!renderPass(view, settings, settings.firstSample + film.samples, count, patience, film)) {
+            film.pixels = std::move(before.pixels);
+            film.layers = std::move(before.layers);
+            break;
+        }
         if (progress) progress(film.samples);
         if (Clock::now() - begin < kLongPass) passSamples *= 2;
     }

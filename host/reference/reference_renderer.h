@@ -12,8 +12,9 @@ namespace parhelion::reference {
 /// Renders on the CPU, in Real = float or double, over all cores. Follows shaders/README.md.
 ///
 /// Reads from `scene.effects` nothing: every effect of the scene is always simulated.
-/// @param stop      when it becomes true, the pass over the image in progress is finished and the rest left out
-///                  (film.samples says how many were taken).
+/// @param stop      when it becomes true, the pass over the image in progress is finished, or left out where that takes
+/// more than
+///                  two seconds, and the rest left out (film.samples says how many were taken, perhaps none).
 /// @param progress  called from the calling thread between passes with samples per pixel done so far.
 template <typename Real>
 Film render(const CompiledScene& scene, const RenderSettings& settings, const std::atomic<bool>* stop = nullptr,

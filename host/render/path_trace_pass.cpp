@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t kGroup = 64;  // local_size_x of the kernels
 constexpr std::uint32_t kFeatureLanes = 1u << 18;
+constexpr std::size_t kCounterBytes = shared::kCounterCount * sizeof(std::uint64_t);
 constexpr std::uint32_t kMaximumCrossings = 8192;  // medium boundaries in front of the first opaque surface
 
 std::uint32_t groupsCovering(std::uint32_t lanes) { return (lanes + kGroup - 1) / kGroup; }
@@ -28,7 +29,7 @@ PathTracePass::PathTracePass(gpu::Device& device, const DeviceScene& deviceScene
       batches_(batches.begin(), batches.end()),
       depthLayers_(depthLayers),
       paths_(device.createBuffer(std::size_t{batches.front().laneCount} * shared::kPathStateWords * 4)),
-      counterBuffer_(device.createBuffer(shared::kCounterCount * 4)),
+      counterBuffer_(device.createBuffer(kCounterBytes)),
       argumentBuffer_(device.createBuffer(sizeof(shared::PathArguments))),
       pipeline_(device, gpu::shaderFolder() / "kernels/path_trace.comp", constants) {
     for (const Batch& batch : batches_)
@@ -56,7 +57,9 @@ double PathTracePass::run(std::size_t batch, const shared::PathArguments& argume
     argumentBuffer_.write(0, std::as_bytes(std::span(&arguments, 1)));
     const double ms = device_.submit(
         [&](VkCommandBuffer commands) { pipeline_.record(commands, {}, groupsCovering(arguments.laneCount)); });
-    std::ranges::copy(counterBuffer_.as<std::uint32_t>(), counters_.begin());
+    const auto words = counterBuffer_.as<std::uint32_t>();
+    for (std::size_t i = 0; i < counters_.size(); ++i)
+        counters_[i] = words[i] | std::uint64_t{words[counters_.size() + i]} << 32;
     return ms;
 }
 
@@ -65,30 +68,16 @@ std::span<const std::uint32_t> PathTracePass::samplesDone(std::size_t batch) {
     return paths_.as<std::uint32_t>().subspan(std::size_t{shared::kPathSampleWord} * lanes, lanes);
 }
 
-std::vector<shared::FilmPixel> PathTracePass::film() {
-    std::vector<shared::FilmPixel> all;
-    for (gpu::Buffer& film : films_) {
-        const auto pixels = film.as<shared::FilmPixel>();
-        all.insert(all.end(), pixels.begin(), pixels.end());
-    }
-    return all;
-}
-
-std::vector<shared::LayerPixel> PathTracePass::layers() {
-    std::vector<shared::LayerPixel> all;
-    for (gpu::Buffer& buffer : layers_) {
-        if (depthLayers_ == 0) break;
-        const auto layers = buffer.as<shared::LayerPixel>();
-        all.insert(all.end(), layers.begin(), layers.end());
-    }
-    return all;
+std::span<const shared::LayerPixel> PathTracePass::layers(std::size_t batch) {
+    if (depthLayers_ == 0) return {};
+    return layers_[batch].as<shared::LayerPixel>();
 }
 
 std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const CompiledScene& scene,
-                                                 const DeviceScene& deviceScene, const RenderSettings& settings,
-                                                 const gpu::Specialisation& constants) {
+                                                 const DeviceScene& deviceScene, std::uint32_t seed,
+                                                 std::uint64_t samples, const gpu::Specialisation& constants) {
     const std::uint32_t pixels = scene.cropSize.x * scene.cropSize.y;
-    gpu::Buffer counters = device.createBuffer(shared::kCounterCount * 4);
+    gpu::Buffer counters = device.createBuffer(kCounterBytes);
     gpu::Buffer argumentBuffer = device.createBuffer(sizeof(shared::PathArguments));
     gpu::ComputePipeline pipeline(device, gpu::shaderFolder() / "kernels/features.comp", constants);
     std::vector<shared::FeaturePixel> all;
@@ -98,7 +87,7 @@ std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const Comp
         pipeline.bind(withBuffers(deviceScene.bindings(), {{.index = 14, .buffer = counters.handle()},
                                                            {.index = 15, .buffer = features.handle()},
                                                            {.index = 28, .buffer = argumentBuffer.handle()}}));
-        for (std::uint32_t sample = 0; sample < settings.featureSamples; ++sample) {
+        for (std::uint32_t sample = 0; sample < samples; ++sample) {
             const shared::PathArguments arguments{.filmSize = scene.filmSize,
                                                   .cropOffset = scene.cropOffset,
                                                   .cropSize = scene.cropSize,
@@ -107,9 +96,11 @@ std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const Comp
                                                   .sampleLow = sample,
                                                   .sampleHigh = 0,
                                                   .sampleCount = 1,
-                                                  .seed = settings.seed,
+                                                  .seed = seed,
                                                   .loopBudget = kMaximumCrossings,
-                                                  .restart = 0};
+                                                  .restart = 0,
+                                                  .pauseAt = 0,
+                                                  .stallLimit = 0};
             argumentBuffer.write(0, std::as_bytes(std::span(&arguments, 1)));
             device.submit([&](VkCommandBuffer commands) { pipeline.record(commands, {}, groupsCovering(lanes)); });
         }

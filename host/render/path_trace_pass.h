@@ -24,13 +24,12 @@ public:
 
     /// Runs one dispatch over a batch. Returns device milliseconds; counters of the dispatch are in counters().
     double run(std::size_t batch, const shared::PathArguments& arguments);
-    const std::array<std::uint32_t, shared::kCounterCount>& counters() const { return counters_; }
-    /// Samples finished by each lane of the batch that ran last, within its window.
+    const std::array<std::uint64_t, shared::kCounterCount>& counters() const { return counters_; }
+    /// Samples in each pixel of the batch that ran last, within its window, in crop order.
     std::span<const std::uint32_t> samplesDone(std::size_t batch);
-    /// All batches' pixels, in crop order.
-    std::vector<shared::FilmPixel> film();
-    /// Their layers by number of scatterings, in the same order; none if there are none.
-    std::vector<shared::LayerPixel> layers();
+    /// A batch's pixels, in crop order, and their layers by number of scatterings, if there are any.
+    std::span<const shared::FilmPixel> film(std::size_t batch) { return films_[batch].as<shared::FilmPixel>(); }
+    std::span<const shared::LayerPixel> layers(std::size_t batch);
     /// Words the loop of one turn may spend beyond its budget: what loopBudget must leave of the driver's 65535.
     static constexpr std::uint32_t kMaximumLoopBudget = 12000;
 
@@ -44,15 +43,16 @@ private:
     std::size_t bound_ = 0;            // batch whose film the pipeline points at
     gpu::Buffer paths_, counterBuffer_, argumentBuffer_;
     gpu::ComputePipeline pipeline_;
-    std::array<std::uint32_t, shared::kCounterCount> counters_{};
+    std::array<std::uint64_t, shared::kCounterCount> counters_{};
 
     void bindFilm(std::size_t batch);
 };
 
 /// The feature kernel: albedo, normal and depth of the first surfaces.
+/// @param samples  camera rays a pixel.
 /// @throws RuntimeFailure when a traversal was cut short.
 std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const CompiledScene& scene,
-                                                 const DeviceScene& deviceScene, const RenderSettings& settings,
-                                                 const gpu::Specialisation& constants);
+                                                 const DeviceScene& deviceScene, std::uint32_t seed,
+                                                 std::uint64_t samples, const gpu::Specialisation& constants);
 
 }  // namespace parhelion::render

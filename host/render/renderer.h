@@ -28,15 +28,17 @@ public:
     Renderer(Renderer&&) noexcept;
 
     /// Runs one dispatch. Returns false when every sample is done.
-    /// @throws RuntimeFailure when the device cut a loop or a traversal short.
+    /// @throws RuntimeFailure when the device cut a loop or a traversal short, or a path makes no progress.
     bool step();
-    /// No further samples are begun but for pixels that are behind: step() returns false once all have equally many.
-    void finishEarly();
+    /// No further samples are begun but for pixels that are behind: step() returns false once all have equally many, or
+    /// after `seconds`, at the end of a dispatch. The film is then as it was when all last had: perhaps without
+    /// samples.
+    void finishEarly(double seconds = 2);
     Progress progress() const;
     /// The film so far, without features: within a window with the samples of each pixel, and `samples` those all
     /// pixels have.
     Film filmSoFar();
-    /// The same with features, which are rendered for it.
+    /// The film with features, which are rendered for it; after finishEarly() with as many of them as a second allows.
     Film film();
 
 private:

@@ -3,11 +3,11 @@
 #ifndef INTEGRATOR_PATH_KERNEL_GLSL
 #define INTEGRATOR_PATH_KERNEL_GLSL
 
+#include "integrator/counters.glsl"
 #include "integrator/path_tracer.glsl"
 
 layout(set = 0, binding = 28, scalar) readonly buffer ArgumentBlock { PathArguments submitted; };
 layout(set = 0, binding = 12, scalar) buffer FilmBlock { FilmPixel film[]; };
-layout(set = 0, binding = 14, scalar) buffer CounterBlock { uint counters[]; };
 
 PathArguments arguments = submitted;
 
@@ -32,12 +32,6 @@ uvec2 lanePixel(uint lane) {
     return tiled ? blocked : uvec2(rest % width, 8u * band + rest / width);
 }
 
-// Shader only: adds a lane's share to a counter, one atomic a subgroup.
-void count(uint counter, uint value) {
-    uint sum = subgroupAdd(value);
-    if (subgroupElect() && sum > 0u) atomicAdd(counters[counter], sum);
-}
-
 // Shader only: adds a finished path to the film; what that cannot hold counts as zero and is reported.
 void finishPath(inout Path p, inout FilmPixel pixel, inout uvec3 anomalies) {
     bool bad = !fitsFilm(p.radiance);
@@ -57,10 +51,19 @@ struct Lane {
     uint pixelIndex;
 };
 
+// Shader only: counts the turns that a path spends at one point of a ray. A distance that is no number is no progress.
+void noteProgress(inout Path p, bool newRay, float before) {
+    p.stalledTurns = newRay || p.segment.t > before ? 0u : p.stalledTurns + 1u;
+}
+
+// Shader only: whether a path has spent more turns at one point than any can need (README, "Paths that make no progress").
+bool isStuck(Path p) { return p.stalledTurns > arguments.stallLimit; }
+
 // Shader only: one turn: track, handle an event, find the next segment.
 void turn(inout Lane lane, uint next) {
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0, 0.0, 1.0), kInfinity, kNone, 1.0);
     uvec2 shadowExponential = uvec2(0u);
+    float before = lane.path.segment.t;
     if (hasMedia && next == kContinue) trackSegment(lane.path, lane.counts);
     if (next == kContinue) next = handleEvent(lane.path, light, shadowExponential, lane.counts);
     if (next == kFinish) finishPath(lane.path, lane.film, lane.anomalies);
@@ -70,22 +73,32 @@ void turn(inout Lane lane, uint next) {
     }
     if (next == kFlight || next == kShadow) startRay(lane.path, next == kShadow, light, shadowExponential);
     startSegment(lane.path, next != kContinue, lane.counts);
+    noteProgress(lane.path, next == kFlight || next == kShadow, before);
     ++lane.counts.tests;
 }
 
-// Shader only: adds up what the lane counted.
-void report(Lane lane) {
-    bool unfinished = lane.path.sampleIndex < arguments.sampleCount;
+// Shader only: names the first path that is stuck.
+void reportStuck(Lane lane) {
+    if (atomicAdd(counters[kCounterStuck], 1u) > 0u) return;
+    counters[kCounterStuckX] = lane.pixel.x;
+    counters[kCounterStuckY] = lane.pixel.y;
+    counters[kCounterStuckSample] = lane.path.sampleIndex;
+}
+
+// Shader only: adds up what the lane counted, `goal` being the samples it was to have.
+void report(Lane lane, uint goal) {
+    bool unfinished = lane.path.sampleIndex < goal, stuck = isStuck(lane.path);
     count(kCounterPathsFinished, lane.anomalies.x);
     count(kCounterNonFinite, lane.anomalies.y);
     count(kCounterNegative, lane.anomalies.z);
     count(kCounterMajorantViolations, lane.counts.violations);
     count(kCounterBvhOverflow, lane.counts.traversalsOk ? 0u : 1u);
-    count(kCounterLoopTruncated, unfinished && lane.counts.tests < arguments.loopBudget ? 1u : 0u);
+    count(kCounterLoopTruncated, unfinished && !stuck && lane.counts.tests < arguments.loopBudget ? 1u : 0u);
     count(kCounterSteps, lane.counts.steps);
     count(kCounterCollisions, lane.counts.collisions);
     count(kCounterVertices, lane.counts.vertices);
     count(kCounterActiveLanes, unfinished ? 1u : 0u);
+    if (stuck) reportStuck(lane);
 }
 
 // Shader only: the twin's nested loops are tracePath.
@@ -101,17 +114,23 @@ void tracePixel(uint laneId) {
     lane.counts = Counts(0u, 0u, 0u, 0u, 0u, true);
     lane.anomalies = uvec3(0u);
     bool restart = arguments.restart != 0u;
-    if (!restart) loadPath(laneId, arguments.laneCount, lane.path);
-    if (restart) lane.path.sampleIndex = 0u;
+    if (!restart) loadPath(filmIndex, arguments.laneCount, lane.path);
+    if (restart) {
+        lane.path.sampleIndex = 0u;
+        lane.path.segment.t = 0.0;
+        lane.path.stalledTurns = 0u;
+    }
     keyPath(lane.path, lane.pixelIndex, arguments);
     uint next = restart ? kBegin : kContinue;
-    while (lane.path.sampleIndex < arguments.sampleCount && lane.counts.tests < arguments.loopBudget) {
+    bool pauses = lane.path.sampleIndex < arguments.pauseAt;
+    uint goal = pauses ? min(arguments.pauseAt, arguments.sampleCount) : arguments.sampleCount;
+    while (lane.path.sampleIndex < goal && lane.counts.tests < arguments.loopBudget && !isStuck(lane.path)) {
         turn(lane, next);
         next = kContinue;
     }
     film[filmIndex] = lane.film;
-    savePath(laneId, arguments.laneCount, lane.path);
-    report(lane);
+    savePath(filmIndex, arguments.laneCount, lane.path);
+    report(lane, goal);
 }
 
 #endif

@@ -26,6 +26,7 @@ struct Path {
     Start vertexStart;     // as in Surface, for rays that leave it
     float vertexOffset;
     float vertexSlack;
+    uint stalledTurns;     // since it last left, or moved along, a ray
 };
 
 layout(set = 0, binding = 13, scalar) buffer PathStates { uint pathStates[]; };
@@ -108,6 +109,7 @@ void savePath(uint lane, uint stride, Path p) {
     storeWord(at, stride, floatBitsToUint(p.vertexSlack));
     storeWord(at, stride, p.vertexInside);
     storeWord(at, stride, p.vertexLast);
+    storeWord(at, stride, p.stalledTurns);
 }
 
 // Shader only: as above.
@@ -152,6 +154,7 @@ void loadPath(uint lane, uint stride, inout Path p) {
     p.vertexSlack = loadFloat(at, stride);
     p.vertexInside = loadWord(at, stride);
     p.vertexLast = loadWord(at, stride);
+    p.stalledTurns = loadWord(at, stride);
 }
 
 #endif

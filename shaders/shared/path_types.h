@@ -35,7 +35,8 @@ struct FeaturePixel {
 };
 SHARED_LAYOUT(FeaturePixel, 32);
 
-// 32-bit words of the counter buffer. The host adds them up after every dispatch and clears them.
+// Counters of a dispatch, 64 bits each: the low words, then the high ones. The host adds them up after every dispatch and
+// clears them.
 SHARED_CONST(uint, kCounterPathsFinished, 0u);
 SHARED_CONST(uint, kCounterNonFinite, 1u);          // samples dropped because not finite
 SHARED_CONST(uint, kCounterMajorantViolations, 2u); // density above its cell's bound
@@ -46,7 +47,15 @@ SHARED_CONST(uint, kCounterSteps, 6u);              // tracking steps, for repor
 SHARED_CONST(uint, kCounterCollisions, 7u);         // tentative collisions, for reports
 SHARED_CONST(uint, kCounterVertices, 8u);           // real collisions and surface hits, for reports
 SHARED_CONST(uint, kCounterActiveLanes, 9u);        // lanes that have samples left
+SHARED_CONST(uint, kCounterStuck, 10u);             // paths that make no progress: always an error; of one of them:
+SHARED_CONST(uint, kCounterStuckX, 11u);            // its pixel
+SHARED_CONST(uint, kCounterStuckY, 12u);
+SHARED_CONST(uint, kCounterStuckSample, 13u);       // its sample, within the window
 SHARED_CONST(uint, kCounterCount, 16u);
+
+// Turns that a path may spend at one point of a ray, beyond two for each null face of the scene (README, "Paths that make
+// no progress").
+SHARED_CONST(uint, kMaximumStall, 65536u);
 
 // Random draws: four words from pcg4d(key.x, key.y, vertex, purpose). Vertex 0 is the camera. What tells purposes apart
 // stands in their low bits: pcg4d carries differences upwards, and words of purposes that differ in their highest bits
@@ -61,9 +70,9 @@ SHARED_CONST(uint, kDrawFlight, 6u);             // | index of the tentative col
 SHARED_CONST(uint, kDrawShadow, 7u);             // | the same
 SHARED_CONST(uint, kDrawIndexShift, 3u);
 
-// A path saved between dispatches: kPathStateWords words, word w of lane l at w * lanes + l. Word
-// kPathSampleWord counts the samples the lane has finished in this window.
-SHARED_CONST(uint, kPathStateWords, 65u);
+// A path saved between dispatches: kPathStateWords words, word w of the batch's pixel p at w * pixels + p. Word
+// kPathSampleWord counts the samples that the pixel has in this window.
+SHARED_CONST(uint, kPathStateWords, 66u);
 SHARED_CONST(uint, kPathSampleWord, 0u);
 
 struct PathArguments {
@@ -78,8 +87,10 @@ struct PathArguments {
     uint seed;
     uint loopBudget;     // loop-back tests a subgroup may spend in this dispatch
     uint restart;        // 1: lanes begin the window afresh; 0: they resume their saved path
+    uint pauseAt;        // lanes with fewer samples stop at this many for the rest of the dispatch
+    uint stallLimit;     // turns without progress after which a path is stuck
 };
-SHARED_LAYOUT(PathArguments, 56);
+SHARED_LAYOUT(PathArguments, 64);
 
 SHARED_END
 

@@ -90,11 +90,13 @@ std::vector<glm::dvec3> addSample(render::PathTracePass& pass, const CompiledSce
                      .sampleCount = 1,
                      .seed = 0,
                      .loopBudget = kBudget,
-                     .restart = restart});
+                     .restart = restart,
+                     .pauseAt = 0,
+                     .stallLimit = shared::kMaximumStall});
         restart = false;
     } while (std::ranges::count(pass.samplesDone(0), 0u) > 0);
     std::vector<glm::dvec3> sums;
-    for (const shared::FilmPixel& pixel : pass.film()) sums.push_back(sampleSum(pixel));
+    for (const shared::FilmPixel& pixel : pass.film(0)) sums.push_back(sampleSum(pixel));
     return sums;
 }
 

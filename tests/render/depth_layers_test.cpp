@@ -143,7 +143,7 @@ TEST(DepthLayersBatches, LayersFollowTheirPixels) {
         settings.featureSamples = 0;
         render::Renderer renderer(testDevice(), scene, settings);
         while (renderer.step())
-            if (isInterrupted) renderer.finishEarly();
+            if (isInterrupted) renderer.finishEarly(60);
         const Film film = renderer.film();
         ASSERT_GT(film.samples, 0u);
         EXPECT_EQ(film.samples, isInterrupted ? film.samples : 8u);

@@ -94,7 +94,7 @@ TEST(Slicing, FinishingEarlyIsAShorterRun) {
     const CompiledScene scene = cloudScene();
     render::Renderer renderer(testDevice(), scene, settingsFor(scene, 1 << 20));
     for (int dispatch = 0; dispatch < 3; ++dispatch) ASSERT_TRUE(renderer.step());
-    renderer.finishEarly();
+    renderer.finishEarly(60);
     while (renderer.step()) {
     }
     const Film film = renderer.film();
@@ -102,6 +102,25 @@ TEST(Slicing, FinishingEarlyIsAShorterRun) {
     ASSERT_LT(film.samples, 1u << 20);
     EXPECT_EQ(film.counters[shared::kCounterPathsFinished], film.samples * film.pixels.size());
     EXPECT_EQ(countDifferentPixels(film, renderVulkan(scene, settingsFor(scene, film.samples))), 0u);
+}
+
+// However far pixels have run ahead of each other, and in how many batches: what is left of a render that is cut off is
+// the film of a shorter one.
+TEST(Slicing, BeingCutOffIsAShorterRun) {
+    const std::string sky = R"(<emitter type="constant"/><shape type="sphere"/>)";
+    for (const CompiledScene& scene : {cloudScene(), compileText(sceneXml(sky), {512, 264})}) {
+        RenderSettings settings = settingsFor(scene, 1 << 20);
+        render::Renderer renderer(testDevice(), scene, settings);
+        // Until pixels differ beyond a snapshot.
+        for (int dispatch = 0; dispatch < 12; ++dispatch) ASSERT_TRUE(renderer.step());
+        renderer.finishEarly(0);
+        EXPECT_FALSE(renderer.step());
+        const Film film = renderer.film();
+        ASSERT_GT(film.samples, 0u);
+        EXPECT_LT(film.samples * film.pixels.size(), film.counters[shared::kCounterPathsFinished]);
+        EXPECT_TRUE(film.pixelSamples.empty());
+        EXPECT_EQ(countDifferentPixels(film, renderVulkan(scene, settingsFor(scene, film.samples))), 0u);
+    }
 }
 
 /// Pixels whose sum is not that of `samples` ones.
@@ -131,7 +150,7 @@ TEST(Slicing, SamplesAreCountedPerPixelWhereverARenderStops) {
     }
     ASSERT_TRUE(stopped);
     EXPECT_GT(sharedCountIsWrong, 0u);
-    renderer.finishEarly();
+    renderer.finishEarly(60);
     while (renderer.step()) {
     }
     const Film film = renderer.film();

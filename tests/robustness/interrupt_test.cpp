@@ -67,6 +67,31 @@ TEST_P(Interrupt, WritesTheImageSoFar) {
 INSTANTIATE_TEST_SUITE_P(Backends, Interrupt, testing::Values("vulkan", "reference"),
                          [](const auto& info) { return info.param; });
 
+// A pass of minutes: the promise is two seconds and a dispatch, features included; the rest is for a loaded machine,
+// and for a start that compiles. Finishing the samples begun took sixteen passes.
+TEST(FirstInterrupt, EndsWithinSecondsHoweverLongAPassIs) {
+    for (const std::string backend : {"vulkan", "reference"}) {
+        const TemporaryFolder folder;
+        folder.write("scene.xml", slowScene().text());
+        ChildProgram program(PARHELION_PROGRAM,
+                             {"render", "scene.xml", "--size", "512x512", "--spp", kEndless, "-o", "out.exr",
+                              "--backend", backend, "--feature-spp", "1"},
+                             folder.path());
+        ASSERT_TRUE(program.waitForError("rendering"));
+        std::this_thread::sleep_for(kWellIntoTheRender);
+        const auto start = std::chrono::steady_clock::now();
+        program.signal(SIGINT);
+        const ProgramResult result = program.wait();
+        const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+        EXPECT_EQ(result.exitCode, 130) << result.error;
+        EXPECT_LT(waited.count(), 20) << backend;
+        if (folder.names().contains("out.exr"))
+            EXPECT_GT(std::get<std::int64_t>(readExr(folder.path() / "out.exr").attributes.at("samplesPerPixel")), 0);
+        else
+            EXPECT_NE(result.error.find("nothing was written"), std::string::npos) << result.error;
+    }
+}
+
 TEST(SecondInterrupt, EndsAtOnceAndWritesNothing) {
     const TemporaryFolder folder;
     folder.write("scene.xml", slowScene().text());
