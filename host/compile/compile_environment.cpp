@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "compile/alias_table.h"
+#include "compile/distribution_table.h"
 #include "compile/luminance.h"
 
 namespace parhelion {
@@ -15,8 +15,7 @@ namespace parhelion {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Least probability of what has one at all: 8 of the 2^32 words that choose.
-constexpr double kLeastShare = 0x1p-29;
+constexpr std::uint32_t kLeastWords = 8;  ///< of the 2^32 that choose, for what has a density at all
 
 /// Mitsuba's: at least three rows, or two where they are equal anyway.
 std::uint32_t paddedHeight(std::uint32_t height) { return height < 3 ? height + 1 : height; }
@@ -92,21 +91,20 @@ void compensateForScattering(std::span<const RowOfCells> rows, std::uint32_t wid
     for (double& weight : weights) weight = std::max(weight - mean, 0.0);
 }
 
-/// Alias table of what does not vanish in proportion to its weight; of all evenly when everything vanishes.
+/// Table of what does not vanish in proportion to its weight; of all evenly when everything vanishes.
 /// @return the probabilities, 0 for everything in the latter case.
 std::vector<double> appendTable(std::span<const double> weights, CompiledScene& scene) {
-    std::vector<double> raised(weights.begin(), weights.end());
-    const double least = kLeastShare * sumOf(weights);
-    for (double& weight : raised) weight = weight > 0.0 ? std::max(weight, least) : 0.0;
-    if (least == 0.0) std::ranges::fill(raised, 1.0);
-    const AliasTable table = buildAliasTable(raised);
-    scene.aliasTable.insert(scene.aliasTable.end(), table.entries.begin(), table.entries.end());
-    return least == 0.0 ? std::vector<double>(weights.size(), 0.0) : table.probabilities;
+    const bool vanishes = std::ranges::all_of(weights, [](double weight) { return weight == 0.0; });
+    const std::vector<double> even(weights.size(), 1.0);
+    DistributionTable table = buildDistribution(vanishes ? even : weights, kLeastWords);
+    scene.distributions.insert(scene.distributions.end(), table.texels.begin(), table.texels.end());
+    return vanishes ? std::vector<double>(weights.size(), 0.0) : std::move(table.probabilities);
 }
 
-/// Alias tables, and densities in the texels.
+/// Tables, and densities in the texels.
 void writeSampling(std::span<const RowOfCells> rows, std::uint32_t width, std::span<const double> weights,
                    CompiledScene& scene) {
+    scene.constants.environmentMap.distribution = std::uint32_t(scene.distributions.size());
     std::vector<double> rowWeights;
     for (std::size_t y = 0; y < rows.size(); ++y)
         rowWeights.push_back(rows[y].height * sumOf(weights.subspan(y * width, width)));
@@ -142,6 +140,12 @@ glm::dvec3 compileEnvironment(const EmitterDescription& emitter, bool compensate
     if (std::uint64_t(size.x) * size.y > kMaxTexels)
         throw InputError(emitter.where, fmt::format("an environment map must have at most {} texels; got {} x {}",
                                                     kMaxTexels, size.x, emitter.map.size.y));
+    const std::uint64_t tables = size.y + std::uint64_t(size.x + 1) * (size.y - 1);
+    if (scene.distributions.size() + tables > kMaxTexels)
+        throw InputError(emitter.where,
+                         fmt::format("the tables that choose from lights, phase functions and the environment map must "
+                                     "have at most {} entries in all; got {}",
+                                     kMaxTexels, scene.distributions.size() + tables));
     std::vector<glm::vec4> texels = scaledTexels(emitter, size);
     if (std::ranges::all_of(texels, [](const glm::vec4& texel) { return texel == glm::vec4(0.0f); }))
         return glm::dvec3(0.0);

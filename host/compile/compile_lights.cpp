@@ -10,6 +10,7 @@
 
 #include "compile/compile_environment.h"
 #include "compile/compile_sky.h"
+#include "compile/distribution_table.h"
 #include "compile/luminance.h"
 #include "compile/radiance_unit.h"
 #include "compile/transforms.h"
@@ -235,20 +236,23 @@ private:
     double writeTriangles(std::span<const std::uint32_t> primitives, shared::Light& light) {
         const shared::SceneConstants& constants = scene_.constants;
         const std::uint32_t firstTriangle = constants.quadCount + constants.sphereCount + constants.boxCount;
-        std::vector<double> running;
-        double total = 0.0;
+        std::vector<double> areas;
         for (const std::uint32_t primitive : primitives)
-            running.push_back(total += areaOf(triangleAt(scene_, primitive - firstTriangle)));
+            areas.push_back(areaOf(triangleAt(scene_, primitive - firstTriangle)));
+        const DistributionTable table = buildDistribution(areas);
 
         light.type = shared::kLightMesh;
         light.primitive = primitives.front();
-        light.area = float(total);
         light.triangleCount = std::uint32_t(primitives.size());
-        light.cdfOffset = std::uint32_t(scene_.lightTriangleCdf.size());
-        for (const double area : running) scene_.lightTriangleCdf.push_back(float(area / total));
-        scene_.lightTriangleCdf.back() = 1.0f;
+        light.triangleOffset = std::uint32_t(scene_.lightTriangles.size());
+        light.distribution = std::uint32_t(scene_.distributions.size());
         scene_.lightTriangles.insert(scene_.lightTriangles.end(), primitives.begin(), primitives.end());
-        return total;
+        scene_.distributions.insert(scene_.distributions.end(), table.texels.begin(), table.texels.end());
+        scene_.triangleAreas.resize(constants.triangleCount, 0.0f);
+        for (std::size_t i = 0; i < areas.size(); ++i)
+            if (areas[i] > 0.0)
+                scene_.triangleAreas[primitives[i] - firstTriangle] = float(areas[i] / table.probabilities[i]);
+        return std::accumulate(areas.begin(), areas.end(), 0.0);
     }
 
     std::span<const KeptShape> shapes_;

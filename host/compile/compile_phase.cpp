@@ -8,7 +8,7 @@
 #include <numbers>
 #include <span>
 
-#include "compile/alias_table.h"
+#include "compile/distribution_table.h"
 
 namespace parhelion {
 
@@ -86,15 +86,13 @@ void writeTable(const PhaseDescription& phase, const std::string& subject, share
     const std::vector<float> density = normalise(phase.table);
     std::vector<double> weights;  // of the stored values: sampled is what evaluation gives
     for (std::size_t i = 0; i + 1 < density.size(); ++i) weights.push_back(double(density[i]) + density[i + 1]);
-    const AliasTable intervals = buildAliasTable(weights);
+    const DistributionTable intervals = buildDistribution(weights);
     record.phase = shared::kPhaseTabulated;
     record.phaseOffset = std::uint32_t(scene.phaseTable.size());
     record.phaseCount = std::uint32_t(weights.size());
     scene.phaseTable.insert(scene.phaseTable.end(), density.begin(), density.end());
-    // 24 bits of the threshold: a float holds them, and random bits compare with them exactly.
-    for (const glm::uvec2& entry : intervals.entries)
-        scene.phaseTable.push_back(float((std::uint64_t(entry.x) + 128) >> 8));
-    for (const glm::uvec2& entry : intervals.entries) scene.phaseTable.push_back(float(entry.y));
+    record.phaseDistribution = std::uint32_t(scene.distributions.size());
+    scene.distributions.insert(scene.distributions.end(), intervals.texels.begin(), intervals.texels.end());
 }
 
 }  // namespace

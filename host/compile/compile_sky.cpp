@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "compile/alias_table.h"
+#include "compile/distribution_table.h"
 #include "compile/luminance.h"
 #include "compile/star_field.h"
 #include "compile/transforms.h"
@@ -58,29 +58,34 @@ shared::Sky writeGradient(const SkyDescription& sky, const SourceLocation& where
     return result;
 }
 
-/// Alias table and densities of one of the two choices, which is taken with probability `share`.
-/// @return density of each outcome if its solid angle is 1.
-std::vector<double> appendChoice(std::span<const double> weights, double share, CompiledScene& scene) {
-    const AliasTable table = buildAliasTable(weights);
-    scene.aliasTable.insert(scene.aliasTable.end(), table.entries.begin(), table.entries.end());
-    std::vector<double> densities = table.probabilities;
-    for (double& density : densities) density *= share;
-    return densities;
+constexpr std::uint32_t kLeastWords = 8;  ///< of the 2^32 that choose, for every band that shines and every star
+
+/// The table of bands and stars, bands first.
+///
+/// @param share  of the stars in all light.
+/// @return the probability of each.
+std::vector<double> writeTable(std::span<const double> bands, std::span<const double> stars, double share,
+                               CompiledScene& scene) {
+    std::vector<double> weights;
+    const auto append = [&](std::span<const double> values, double part) {
+        const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+        for (const double value : values) weights.push_back(sum > 0.0 ? value / sum * part : 0.0);
+    };
+    append(bands, 1.0 - share);
+    append(stars, share);
+    DistributionTable table = buildDistribution(weights, kLeastWords);
+    scene.constants.sky.distribution = std::uint32_t(scene.distributions.size());
+    scene.distributions.insert(scene.distributions.end(), table.texels.begin(), table.texels.end());
+    return std::move(table.probabilities);
 }
 
-/// Share of the stars in all light as a multiple of 2^-24: neither they nor a gradient that shines are left out.
-double starShare(double starlight, double gradient) {
-    constexpr double kSteps = 0x1p24;
-    const double steps = std::round(starlight / (starlight + gradient) * kSteps);
-    return std::clamp(steps, starlight > 0.0 ? 1.0 : 0.0, gradient > 0.0 ? kSteps - 1.0 : kSteps) / kSteps;
-}
-
-void writeStars(std::span<const Star> stars, double oneMinusCos, std::span<const double> densities,
+/// @param probabilities  that sampling picks each.
+void writeStars(std::span<const Star> stars, double oneMinusCos, std::span<const double> probabilities,
                 CompiledScene& scene) {
     const double solidAngle = 2.0 * kPi * oneMinusCos;
     for (std::size_t i = 0; i < stars.size(); ++i) {
         scene.stars.emplace_back(stars[i].direction, float(oneMinusCos));
-        scene.stars.emplace_back(float(stars[i].brightness), float(densities[i] / solidAngle), 0.0f, 0.0f);
+        scene.stars.emplace_back(float(stars[i].brightness), float(probabilities[i] / solidAngle), 0.0f, 0.0f);
     }
     StarGrid grid = buildStarGrid(stars, oneMinusCos);
     scene.constants.sky.starCount = std::uint32_t(stars.size());
@@ -113,12 +118,12 @@ glm::dvec3 compileSky(const SkyDescription& sky, const SourceLocation& where, Co
 
     scene.constants.sky = writeGradient(sky, where);
     const bool shines = gradient != glm::dvec3(0.0);
-    const double share = starShare(luminance(starlight), luminance(gradient));
-    scene.constants.sky.starSelection = float(share);
-    const std::vector<double> bounds = shines ? bandBounds(sky) : std::vector<double>(kSkyBands, 1.0);
-    for (const double density : appendChoice(bounds, 1.0 - share, scene))
-        scene.skyBands.push_back(float(density * kSkyBands / (4.0 * kPi)));
-    if (!stars.empty()) writeStars(stars, oneMinusCos, appendChoice(brightness, share, scene), scene);
+    const double share = luminance(starlight) / (luminance(starlight) + luminance(gradient));
+    const std::vector<double> bounds = shines ? bandBounds(sky) : std::vector<double>(kSkyBands, 0.0);
+    const std::vector<double> probabilities = writeTable(bounds, brightness, share, scene);
+    for (const double probability : std::span(probabilities).first(kSkyBands))
+        scene.skyBands.push_back(float(probability * kSkyBands / (4.0 * kPi)));
+    if (!stars.empty()) writeStars(stars, oneMinusCos, std::span(probabilities).subspan(kSkyBands), scene);
     return gradient + starlight;
 }
 

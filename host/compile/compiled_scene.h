@@ -54,23 +54,23 @@ struct ArraySize {
 /// Canonical, device-ready arrays: all that either back end reads.
 struct CompiledScene {
     shared::SceneConstants constants{};
-    std::vector<shared::Shape> shapes;          ///< by shape index
-    std::vector<glm::vec4> bvhNodes;            ///< kBvhNodeTexels a node; empty without triangles
-    std::vector<glm::vec4> triangles;           ///< kTriangleTexels a triangle, BVH order
-    std::vector<glm::vec4> vertexNormals;       ///< 3 a triangle; empty when every triangle is flat
-    std::vector<float> density;                 ///< all density voxels; dense: x fastest; bricked: 512 a brick
-    std::vector<std::uint32_t> brickTable;      ///< first voxel of each brick in `density`, or kEmptyBrick
-    std::vector<float> majorants;               ///< density bound per majorant cell
-    std::vector<glm::vec4> albedoVoxels;        ///< rgb + unused
-    std::vector<float> lightTriangleCdf;        ///< mesh lights: running area fractions, see Light.cdfOffset
-    std::vector<std::uint32_t> lightTriangles;  ///< parallel to it: primitive ids (global numbering)
+    std::vector<shared::Shape> shapes;      ///< by shape index
+    std::vector<glm::vec4> bvhNodes;        ///< kBvhNodeTexels a node; empty without triangles
+    std::vector<glm::vec4> triangles;       ///< kTriangleTexels a triangle, BVH order
+    std::vector<glm::vec4> vertexNormals;   ///< 3 a triangle; empty when every triangle is flat
+    std::vector<float> density;             ///< all density voxels; dense: x fastest; bricked: 512 a brick
+    std::vector<std::uint32_t> brickTable;  ///< first voxel of each brick in `density`, or kEmptyBrick
+    std::vector<float> majorants;           ///< density bound per majorant cell
+    std::vector<glm::vec4> albedoVoxels;    ///< rgb + unused
+    std::vector<float> triangleAreas;  ///< of mesh lights' triangles, area / probability; empty without such lights
+    std::vector<std::uint32_t> lightTriangles;  ///< of mesh lights: primitive ids (global numbering)
     std::vector<float> filterTable;             ///< 257 offsets in pixels; empty for the box filter
     std::vector<shared::Texture> textures;
     std::vector<glm::vec4> textureTexels;      ///< rgb + unused, all bitmaps one after the other
     std::vector<glm::vec2> triangleUvs;        ///< 3 a triangle; empty where no shape is textured
     std::vector<float> phaseTable;             ///< tabulated phase functions, see Medium.phaseOffset
     std::vector<glm::vec4> environmentTexels;  ///< rgb; w: density per steradian of the cell whose corner it is
-    std::vector<glm::uvec2> aliasTable;        ///< (threshold, alias): rows, then cells row by row; or the sky's bands
+    std::vector<glm::uvec2> distributions;     ///< (edge, guide), one table after the other: see DistributionTable
     std::vector<glm::vec2> environmentRows;    ///< of each row of cells: 1 - cos of the angle between the nearer pole
                                                ///< and the edge nearer to it; how much cos changes over the row
     std::vector<float> skyBands;               ///< density per steradian of each band

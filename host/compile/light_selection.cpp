@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "compile/compile_lights.h"
+#include "compile/distribution_table.h"
 
 namespace parhelion {
 
@@ -22,6 +23,7 @@ void assignSelection(std::span<const double> powers, std::span<shared::Light> li
         const double cumulative = std::round(running * kSteps) / kSteps;
         lights[i].cumulative = float(cumulative);
         lights[i].selection = float(cumulative - previous);
+        lights[i].reciprocal = reciprocalOf(std::uint32_t(std::uint64_t((cumulative - previous) * 0x1p32)));
         previous = cumulative;
     }
 }

@@ -119,6 +119,26 @@ void forEachCell(const glm::dvec3& d, double reach, std::uint32_t cells, Visit v
     }
 }
 
+/// Place along the curve of Hilbert over (height, azimuth), which keeps areas: neighbours on it are neighbours in the
+/// sky.
+std::uint32_t placeOnCurve(const glm::dvec3& d) {
+    constexpr std::uint32_t kSide = 1u << 15;
+    const auto step = [](double share) { return std::min(std::uint32_t(std::max(share, 0.0) * kSide), kSide - 1); };
+    std::uint32_t x = step(0.5 + 0.5 * d.z), y = step(0.5 + std::atan2(d.y, d.x) / (2.0 * kPi)), place = 0;
+    for (std::uint32_t half = kSide / 2; half > 0; half /= 2) {
+        const std::uint32_t right = (x & half) != 0, upper = (y & half) != 0;
+        place = 4 * place + ((3 * right) ^ upper);
+        if (upper == 0) {
+            if (right == 1) {
+                x = kSide - 1 - x;
+                y = kSide - 1 - y;
+            }
+            std::swap(x, y);
+        }
+    }
+    return place;
+}
+
 /// Number of stars in each cell.
 std::vector<std::uint32_t> countStars(std::span<const Star> stars, double reach, std::uint32_t cells) {
     std::vector<std::uint32_t> counts(std::size_t(6) * cells * cells, 0);
@@ -152,6 +172,7 @@ std::vector<Star> scatterStars(const SkyDescription& sky, const SourceLocation& 
         const glm::vec3 direction(uniformDirection(uniforms));
         if (spacing.add(direction)) stars.push_back({direction, brightnessAt(uniforms.next())});
     }
+    std::ranges::stable_sort(stars, {}, [](const Star& star) { return placeOnCurve(star.direction); });
     return stars;
 }
 

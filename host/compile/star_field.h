@@ -21,7 +21,7 @@ inline constexpr double kFaintestStar = 0.02;
 /// uniform over the sphere, those that would touch an earlier one placed anew. A disc of radius r keeps others' centers
 /// from 4 sin^2(r/2) of the sphere at most, four times what it covers: where all together cover a tenth of it, as
 /// scenes may at most, a place is free with probability 0.6 or more. Brightness b follows N(> b) ~ b^-3/2, what a
-/// uniform space of equal suns shows, from kFaintestStar to 1.
+/// uniform space of equal suns shows, from kFaintestStar to 1. Neighbours in the list are near each other in the sky.
 ///
 /// @return at most kMaxStars.
 /// @throws InputError at `where` when 4 attempts a star and 1000 more have not found room: they would cover too much.

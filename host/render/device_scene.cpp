@@ -48,7 +48,7 @@ DeviceScene::DeviceScene(gpu::Device& device, const CompiledScene& scene) {
     addTexels(device, 6, scene.brickTable, u);
     addTexels(device, 7, scene.majorants, r);
     addTexels(device, 8, scene.albedoVoxels, rgba);
-    addTexels(device, 9, scene.lightTriangleCdf, r);
+    addTexels(device, 9, scene.triangleAreas, r);
     addTexels(device, 10, scene.lightTriangles, u);
     addTexels(device, 11, scene.filterTable, r);
 
@@ -58,7 +58,7 @@ DeviceScene::DeviceScene(gpu::Device& device, const CompiledScene& scene) {
     addTexels(device, 18, scene.triangleUvs, rg);
     addTexels(device, 19, scene.phaseTable, r);
     addTexels(device, 20, scene.environmentTexels, rgba);
-    addTexels(device, 21, scene.aliasTable, uu);
+    addTexels(device, 21, scene.distributions, uu);
     addTexels(device, 22, scene.environmentRows, rg);
     addTexels(device, 23, scene.skyBands, r);
     addTexels(device, 24, scene.stars, rgba);

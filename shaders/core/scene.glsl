@@ -16,7 +16,7 @@ layout(set = 0, binding = 5) uniform samplerBuffer densityTexels;
 layout(set = 0, binding = 6) uniform usamplerBuffer brickTexels;
 layout(set = 0, binding = 7) uniform samplerBuffer majorantTexels;
 layout(set = 0, binding = 8) uniform samplerBuffer albedoTexels;
-layout(set = 0, binding = 9) uniform samplerBuffer lightCdfTexels;
+layout(set = 0, binding = 9) uniform samplerBuffer triangleAreas;       // of mesh lights, see meshArea
 layout(set = 0, binding = 10) uniform usamplerBuffer lightTriangleTexels;
 layout(set = 0, binding = 11) uniform samplerBuffer filterTexels;
 layout(set = 0, binding = 16) uniform samplerBuffer textureRecords;     // 6 a texture
@@ -24,7 +24,7 @@ layout(set = 0, binding = 17) uniform samplerBuffer textureTexels;      // rgb
 layout(set = 0, binding = 18) uniform samplerBuffer triangleUvTexels;   // 3 a triangle
 layout(set = 0, binding = 19) uniform samplerBuffer phaseTexels;
 layout(set = 0, binding = 20) uniform samplerBuffer environmentTexels;  // rgb; w: density of the cell below right
-layout(set = 0, binding = 21) uniform usamplerBuffer aliasTexels;       // of the environment map or the sky
+layout(set = 0, binding = 21) uniform usamplerBuffer distributionTexels;
 layout(set = 0, binding = 22) uniform samplerBuffer environmentRows;    // of each row of cells: see README, "Environment map"
 layout(set = 0, binding = 23) uniform samplerBuffer skyBands;           // density of each band per steradian
 layout(set = 0, binding = 24) uniform samplerBuffer starTexels;         // 2 a star

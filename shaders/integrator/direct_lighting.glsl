@@ -23,9 +23,10 @@ float evalScatterer(Scatterer s, vec3 wi) {
     return value;
 }
 
-// Direction (xyz) and its density (w).
-vec4 sampleScatterer(Scatterer s, vec2 u) {
-    vec3 polar = samplePhase(s.phase, u.x);
+// Direction (xyz) and its density (w), from the words x and y of a scatter draw.
+vec4 sampleScatterer(Scatterer s, uvec2 words) {
+    vec2 u = vec2(toUniform(words.x), toUniform(words.y));
+    vec3 polar = samplePhase(s.phase, words.x);
     vec2 sc = sinCosTurn(u.y);
     vec3 local = vec3(polar.y * vec2(sc.y, sc.x), polar.x);
     if (hasSurfaces && s.surface) {
@@ -43,9 +44,9 @@ struct DirectLight {
     float threshold;    // of the shadow ray's roulette
 };
 
-// `u`, `words`: the light and the environment draw. `largestFactor`: largest channel of a surface's reflectance, 1 in media.
-DirectLight estimateDirect(Scatterer s, vec3 position, vec3 u, uvec4 words, float largestFactor, inout uint tests) {
-    LightSample light = sampleLight(position, u, words, tests);
+// `words`: x, y and z of the light draw. `largestFactor`: largest channel of a surface's reflectance, 1 in media.
+DirectLight estimateDirect(Scatterer s, vec3 position, uvec3 words, float largestFactor, inout uint tests) {
+    LightSample light = sampleLight(position, words, tests);
     float value = evalScatterer(s, light.direction);
     float pdf = light.pdf, scatterPdf = value;
     if (hasStrategyWeights) {

@@ -23,7 +23,7 @@ void addEmission(Path p, Surface surface, uint lightIndex, inout vec3 gain) {
     if (lightIndex == kNone || isTooDeep(p)) return;
     Light light = lightAt(lightIndex);
     float cosine = lightCosine(light, surface.geometricNormal, surface.shadingNormal, -p.ray.direction);
-    float pdf = lightPdf(light, p.ray.origin, p.hit.t, cosine);
+    float pdf = lightPdf(light, p.hit.primitive, p.ray.origin, p.hit.t, cosine);
     if (hasStrategyWeights) pdf *= emitterSamples;
     float weight = emissionWeight(p.lastPdf, pdf);
     if (cosine > 0.0) gain = spectralBeta(p) * emissionAt(light, surface.uv) * weight;

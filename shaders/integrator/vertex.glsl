@@ -22,18 +22,16 @@ uint scatter(inout Path p, Vertex v, inout DirectLight light, inout uvec2 shadow
     float survival = p.vertex >= rouletteDepth || largest < 1e-20 ? clamp(largest, 0.05, 1.0) : 1.0;
     bool alive = !isTooDeep(p) && largest > 0.0 && toUniform(word.w) < survival;
     p.beta /= survival;
-    vec4 next = sampleScatterer(v.scatterer, vec2(toUniform(word.x), toUniform(word.y)));
+    vec4 next = sampleScatterer(v.scatterer, word.xy);
+    counts.tests += hasTabulatedPhase ? kSearchSteps + 1u : 0u;
     p.lastPdf = hasStrategyWeights ? next.w * scatterSamples : next.w;
     p.nextDirection = next.xyz;
     p.nextExponential = uvec2(word.z, spareBits(word.x, word.y, word.w));
     bool shadow = false;
     if (hasDeltaLights || hasAreaLights || hasEnvironmentSampling) {
         uvec4 choice = drawStratified(p.stream, p.vertex, kDrawLight);
-        vec3 u = vec3(toUniform(choice.z), toUniform(choice.x), toUniform(choice.y));
         float largestFactor = v.scatterer.surface ? maxComponent(v.factor) : 1.0;
-        uvec4 words = uvec4(0u);
-        if (hasSky || hasEnvironmentMap) words = drawStratified(p.stream, p.vertex, kDrawEnvironment);
-        light = estimateDirect(v.scatterer, p.vertexPosition, u, words, largestFactor, counts.tests);
+        light = estimateDirect(v.scatterer, p.vertexPosition, choice.xyz, largestFactor, counts.tests);
         p.pending = spectralBeta(p) * light.contribution;
         shadow = maxComponent(p.pending) > 0.0;
         shadowExponential = uvec2(choice.w, spareBits(choice.x, choice.y, choice.z));

@@ -7,6 +7,7 @@
 #include "geometry/intersection.glsl"
 #include "light/light_sample.glsl"
 #include "sampling/distribution.glsl"
+#include "sampling/sampler.glsl"
 #include "sampling/warp.glsl"
 #include "surface/texture.glsl"
 
@@ -73,15 +74,19 @@ LightSample sampleArea(Light light, vec3 position, vec3 point, vec2 uv, vec3 geo
     return LightSample(direction, distance, emissionAt(light, uv) * safeDivide(1.0, pdf), pdf, primitive);
 }
 
-LightSample sampleMeshLight(Light light, vec3 position, float selector, vec2 u, inout uint tests) {
-    uint entry = light.cdfOffset + firstAbove(light.cdfOffset, light.triangleCount, selector);
-    tests += kSearchSteps + 1u;
-    uint primitive = texelFetch(lightTriangleTexels, int(entry)).x;
-    vec3 b = uniformTriangle(u);
+// 1 / the density per unit of area with which sampleMeshLight finds a point of a triangle: about the area of its mesh.
+float meshArea(uint primitive) {
+    return texelFetch(triangleAreas, int(primitive - (quadCount + sphereCount + boxCount))).x;
+}
+
+LightSample sampleMeshLight(Light light, vec3 position, uvec3 words) {
+    Choice choice = invertDistribution(light.distribution, light.triangleCount, words.x, fillDigits(words.z).x);
+    uint primitive = texelFetch(lightTriangleTexels, int(light.triangleOffset + choice.entry)).x;
+    vec3 b = uniformTriangle(vec2(choice.offset, toUniform(words.y)));
     uint first = quadCount + sphereCount + boxCount;
     Surface surface = triangleSurface(primitive - first, b.yz);
     return sampleArea(light, position, surface.position, surface.uv, surface.geometricNormal, surface.shadingNormal,
-                      light.area, primitive);
+                      meshArea(primitive), primitive);
 }
 
 #endif

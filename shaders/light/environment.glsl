@@ -37,21 +37,23 @@ vec4 environmentAt(vec3 d) {
     return vec4(g.y * (g.x * a.rgb + f.x * b) + f.y * (g.x * c + f.x * e), a.w);
 }
 
-// Direction (xyz) from the words of an environment draw, and its density per steradian (w): of the cell it was taken from,
-// also where rounding puts it next door.
-vec4 sampleEnvironment(uvec4 words) {
-    uint row = sampleAlias(0u, environmentMap.height - 1u, words.x);
-    uint rowStart = row * environmentMap.width;
-    uint column = sampleAlias(environmentMap.height - 1u + rowStart, environmentMap.width, words.y);
-    vec2 u = vec2(toUniform(words.z), toUniform(words.w));
-    vec2 edge = texelFetch(environmentRows, int(row)).xy;
-    float h = edge.x + edge.y * u.x;  // 1 - cos of the angle from the nearer pole
-    float sine = sqrt(h * (2.0 - h)), cosine = 2u * row + 1u < environmentMap.height ? 1.0 - h : h - 1.0;
-    float turn = (float(column) + (0.5 + u.y)) / float(environmentMap.width);
+// Direction (xyz) from the words of a light draw, and its density per steradian (w): of the cell it was taken from, also
+// where rounding puts it next door.
+vec4 sampleEnvironment(uvec3 words) {
+    vec2 fill = fillDigits(words.z);
+    Choice row = invertDistribution(environmentMap.distribution, environmentMap.height - 1u, words.x, fill.x);
+    uint cells = environmentMap.distribution + environmentMap.height + row.entry * (environmentMap.width + 1u);
+    Choice column = invertDistribution(cells, environmentMap.width, words.y, fill.y);
+    vec2 edge = texelFetch(environmentRows, int(row.entry)).xy;
+    bool north = 2u * row.entry + 1u < environmentMap.height;
+    float h = edge.x + edge.y * (north ? row.offset : row.left);  // 1 - cos of the angle from the nearer pole
+    float sine = sqrt(h * (2.0 - h)), cosine = north ? 1.0 - h : h - 1.0;
+    float turn = (float(column.entry) + (0.5 + column.offset)) / float(environmentMap.width);
     vec2 sc = sinCosTurn(turn < 1.0 ? turn : turn - 1.0);
     vec3 local = vec3(sine * sc.x, cosine, -sine * sc.y);
     vec3 d = local.x * environmentMap.localX + local.y * environmentMap.localY + local.z * environmentMap.localZ;
-    return vec4(normalize(d), texelFetch(environmentTexels, int(rowStart + column)).w);
+    uint cell = row.entry * environmentMap.width + column.entry;
+    return vec4(normalize(d), texelFetch(environmentTexels, int(cell)).w);
 }
 
 #endif

@@ -22,23 +22,27 @@ uint selectLight(float u) {
     return low;
 }
 
-// A light seen from `position`, chosen by u.x, placed by u.yz, or by `words` (the environment draw) on a map or sky.
-LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
-    uint index = selectLight(u.x);
+// A light seen from `position`, chosen and placed by the words x, y and z of a light draw.
+LightSample sampleLight(vec3 position, uvec3 words, inout uint tests) {
+    uint index = selectLight(toUniform(words.x));
     tests += hasManyLights ? 9u : 0u;
     Light light = lightAt(index);
+    if (hasManyLights) {
+        float below = index == 0u ? 0.0 : scene.lights[index - 1u].cumulative;
+        words.xz = zoomWord(words.xz, uint(below * 16777216.0) << 8u, uint(light.selection * 16777216.0) << 8u, light.reciprocal);
+    }
+    vec2 u = vec2(toUniform(words.x), toUniform(words.y));
+    // Of a mesh's triangles, a sky's bands and stars, or a map's rows and cells; and of findStar.
+    if (hasEnvironmentMap || hasSky || (hasAreaLights && hasTriangles)) tests += 2u * (kSearchSteps + 1u);
+    tests += hasStars ? kMaxStarsPerCell + 1u : 0u;
     LightSample result = LightSample(vec3(0.0, 0.0, 1.0), kInfinity, vec3(0.0), 1.0, kNone);
     if (hasAreaLights && light.type == kLightQuad) {
         Quad q = quadOf(light);
-        vec3 point = q.corner + u.y * q.edgeU + u.z * q.edgeV;
-        result = sampleArea(light, position, point, u.yz, q.normal, q.normal, q.area, light.primitive);
+        vec3 point = q.corner + u.x * q.edgeU + u.y * q.edgeV;
+        result = sampleArea(light, position, point, u, q.normal, q.normal, q.area, light.primitive);
     }
-    if (hasAreaLights && hasSpheres && light.type == kLightSphere) result = sampleSphereLight(light, position, u.yz);
-    if (hasAreaLights && hasTriangles && light.type == kLightMesh) {
-        float below = index == 0u ? 0.0 : scene.lights[index - 1u].cumulative;
-        float rest = clamp(safeDivide(u.x - below, light.selection), 0.0, 0.99999994);
-        result = sampleMeshLight(light, position, rest, u.yz, tests);
-    }
+    if (hasAreaLights && hasSpheres && light.type == kLightSphere) result = sampleSphereLight(light, position, u);
+    if (hasAreaLights && hasTriangles && light.type == kLightMesh) result = sampleMeshLight(light, position, words);
     if (hasDeltaLights && light.type == kLightDirectional)
         result = LightSample(-light.vector, kInfinity, light.emission * safeDivide(1.0, light.selection), kInfinity, kNone);
     if (hasDeltaLights && light.type == kLightPoint) {
@@ -48,17 +52,16 @@ LightSample sampleLight(vec3 position, vec3 u, uvec4 words, inout uint tests) {
         result = LightSample(toLight * sqrt(inverse), sqrt(square),
                              light.emission * (inverse * safeDivide(1.0, light.selection)), kInfinity, kNone);
     }
-    if (hasEnvironmentSampling && light.type >= kLightEnvironment) result = sampleSurrounding(light, u.yz, words);
-    tests += hasStars ? kMaxStarsPerCell + 1u : 0u;
+    if (hasEnvironmentSampling && light.type >= kLightEnvironment) result = sampleSurrounding(light, words);
     return result;
 }
 
 // Density per steradian, selection included, with which sampleLight finds the direction of a ray that
-// left `origin` and met the light after distance t under `cosine` (see lightCosine).
-float lightPdf(Light light, vec3 origin, float t, float cosine) {
+// left `origin` and met a primitive of the light after distance t under `cosine` (see lightCosine).
+float lightPdf(Light light, uint primitive, vec3 origin, float t, float cosine) {
     float pdf = 0.0;
     if (light.type == kLightQuad) pdf = safeDivide(t * t, cosine * quadOf(light).area);
-    if (light.type == kLightMesh) pdf = safeDivide(t * t, cosine * light.area);
+    if (hasTriangles && light.type == kLightMesh) pdf = safeDivide(t * t, cosine * meshArea(primitive));
     if (hasSpheres && light.type == kLightSphere) {
         Sphere s = sphereOf(light);
         pdf = safeDivide(0.5 * kInvPi, oneMinusCosCone(s.center - origin, s.radius));

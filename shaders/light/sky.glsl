@@ -82,19 +82,20 @@ float skyPdf(SkyPoint p) {
     return pdf;
 }
 
-// A point of the sky from the words of an environment draw.
-SkyPoint sampleSky(uvec4 words) {
-    vec2 u = vec2(toUniform(words.z), toUniform(words.w));
-    uint band = sampleAlias(0u, sky.bandCount, words.y);
+// A point of the sky from the words of a light draw.
+SkyPoint sampleSky(uvec3 words) {
+    Choice choice = invertDistribution(sky.distribution, sky.bandCount + sky.starCount, words.x, fillDigits(words.z).x);
+    vec2 u = vec2(choice.offset, toUniform(words.y));
+    uint band = min(choice.entry, sky.bandCount - 1u);
     float height = 2.0 / float(sky.bandCount);
-    float rise = (float(band) + u.x) * height;                    // 1 + cos
-    float fall = (float(sky.bandCount - band) - u.x) * height;    // 1 - cos
+    float rise = (float(band) + u.x) * height;                               // 1 + cos
+    float fall = (float(sky.bandCount - 1u - band) + choice.left) * height;  // 1 - cos
     vec2 sc = sinCosTurn(u.y);
     vec3 local = vec3(sqrt(rise * fall) * vec2(sc.y, sc.x), rise < fall ? rise - 1.0 : 1.0 - fall);
     vec3 axis = sky.axis;
     uint star = kNone;
-    if (hasStars && toUniform(words.x) < sky.starSelection) {
-        star = sampleAlias(sky.bandCount, sky.starCount, words.y);
+    if (hasStars && choice.entry >= sky.bandCount) {
+        star = choice.entry - sky.bandCount;
         vec4 disc = texelFetch(starTexels, int(2u * star));
         axis = disc.xyz;
         local = uniformCone(u, disc.w);

@@ -7,13 +7,12 @@
 #include "light/sky.glsl"
 #include "sampling/warp.glsl"
 
-// A direction towards a light that surrounds the scene: by u where it is constant, by `words` (the environment draw) on a
-// map or a sky.
-LightSample sampleSurrounding(Light light, vec2 u, uvec4 words) {
+// A direction towards a light that surrounds the scene, by the words x, y and z of a light draw.
+LightSample sampleSurrounding(Light light, uvec3 words) {
     LightSample result = LightSample(vec3(0.0, 0.0, 1.0), kInfinity, vec3(0.0), 1.0, kNone);
     if (light.type == kLightEnvironment) {
         float pdf = kInvFourPi * light.selection;
-        result = LightSample(uniformSphere(u), kInfinity, light.emission * safeDivide(1.0, pdf), pdf, kNone);
+        result = LightSample(uniformSphere(vec2(toUniform(words.x), toUniform(words.y))), kInfinity, light.emission * safeDivide(1.0, pdf), pdf, kNone);
     }
     if (hasEnvironmentMap && light.type == kLightEnvironmentMap) {
         vec4 point = sampleEnvironment(words);

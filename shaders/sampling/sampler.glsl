@@ -81,6 +81,9 @@ uvec4 drawStratified(Stream stream, uint vertex, uint purpose) {
 // In [0, 1): multiples of 2^-24, never 1.
 float toUniform(uint word) { return float(word >> 8u) * 5.9604644775390625e-8; }
 
+// What a light draw's z lends its x and y, in (0, 1): 16 digits each (README, "Distributions").
+vec2 fillDigits(uint word) { return (vec2(word >> 16u, word & 0xffffu) + 0.5) * 1.52587890625e-5; }
+
 // The 24 bits that toUniform leaves of three words.
 uint spareBits(uint x, uint y, uint z) { return (x & 255u) << 16u | (y & 255u) << 8u | (z & 255u); }
 

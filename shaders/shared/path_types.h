@@ -65,7 +65,6 @@ SHARED_CONST(uint, kDrawLight, 1u);
 SHARED_CONST(uint, kDrawScatter, 2u);
 SHARED_CONST(uint, kDrawAlbedo, 3u);
 SHARED_CONST(uint, kDrawFeature, 4u);            // the feature pass's film position
-SHARED_CONST(uint, kDrawEnvironment, 5u);        // where on an environment map or sky
 SHARED_CONST(uint, kDrawFlight, 6u);             // | index of the tentative collision on this ray << kDrawIndexShift
 SHARED_CONST(uint, kDrawShadow, 7u);             // | the same
 SHARED_CONST(uint, kDrawIndexShift, 3u);

@@ -144,7 +144,7 @@ struct Medium {
     uint phaseOffset;   // tabulated: first entry in `phaseTable`
     uint phaseCount;    // tabulated: intervals of mu
     uint cellLevel;     // majorant cells span kVoxelsPerCell << cellLevel voxels an axis
-    uint reserved;
+    uint phaseDistribution;  // tabulated: first texel of its intervals in `distributions`
 };
 SHARED_LAYOUT(Medium, 208);
 
@@ -173,14 +173,14 @@ struct Light {
     uint type;         // kLight*
     vec3 vector;       // directional: unit direction of travel; point: position
     uint primitive;    // quad, sphere: primitive id; mesh: first triangle id (global numbering)
-    float selection;   // probability that next-event estimation selects this light; 0: never sampled
+    float selection;   // probability that next-event estimation selects this light, a multiple of 2^-24; 0: never sampled
     float cumulative;  // sum of `selection` over this and all earlier lights; exactly 1 from the last sampled one on
-    float area;        // mesh: total area; others 0
-    uint triangleCount;  // mesh: number of triangles; their running area fractions start at cdfOffset
-    uint cdfOffset;      // mesh: first entry in `lightTriangleCdf` (last entry exactly 1)
+    uint reciprocal;   // of `selection`, for zoomWord: README, "Distributions"
+    uint triangleCount;   // mesh: number of triangles
+    uint triangleOffset;  // mesh: first of them in `lightTriangles`
     uint texture;        // area lights: index into the textures, which `emission` then tints, or kNone
     uint flags;          // kLightTwoSided
-    uint reserved;
+    uint distribution;   // mesh: first texel of its triangles in `distributions`
 };
 SHARED_LAYOUT(Light, 64);
 
@@ -208,7 +208,7 @@ struct EnvironmentMap {
     vec3 localY;
     uint height;
     vec3 localZ;
-    uint reserved;
+    uint distribution;  // first texel of its rows in `distributions`; the rows' cells follow
 };
 SHARED_LAYOUT(EnvironmentMap, 48);
 
@@ -226,9 +226,9 @@ struct Sky {
     float power;
     vec3 starRadiance;    // of a star of brightness 1
     uint starCells;       // per edge of a face of the lookup cube; 0: no stars
-    float starSelection;  // probability that sampling picks a star rather than the gradient
     uint starCount;
-    uint bandCount;  // bands of equal height in dot(d, axis) that sampling chooses from
+    uint bandCount;     // bands of equal height in dot(d, axis) that sampling chooses from
+    uint distribution;  // first texel of bands and stars in `distributions`
     uint reserved;
 };
 SHARED_LAYOUT(Sky, 80);

@@ -5,6 +5,7 @@
 
 #include "core/math.glsl"
 #include "core/scene.glsl"
+#include "sampling/distribution.glsl"
 #include "sampling/sampler.glsl"
 
 // What a vertex in a medium scatters by. Fields are those of Medium.
@@ -15,11 +16,12 @@ struct PhaseFunction {
     float weight;   // dual: of the lobe to sample
     uint offset;
     uint count;
-    uint interval;  // tabulated: to sample
+    uint distribution;
+    float fill;     // tabulated: digits that the word to sample by lacks
 };
 
 // Shader only: where there is no medium.
-PhaseFunction noPhase() { return PhaseFunction(kPhaseIsotropic, 0.0, 0.0, 1.0, 0u, 1u, 0u); }
+PhaseFunction noPhase() { return PhaseFunction(kPhaseIsotropic, 0.0, 0.0, 1.0, 0u, 1u, 0u, 0.0); }
 
 // Henyey-Greenstein from the squared distance of the unit directions: nothing cancels next to
 // mu = +-1 (H5). |g| <= 1 - 2^-20.
@@ -77,23 +79,15 @@ float evalTabulated(uint offset, uint count, vec3 wo, vec3 wi) {
     return phaseTexel(offset + near) * (1.0 - t) + phaseTexel(offset + far) * t;
 }
 
-// The interval of a table that a random word chooses: one look-up in its alias table.
-uint chooseInterval(uint offset, uint count, uint word) {
-    uint bucket, rest;
-    umulExtended(word, count, bucket, rest);
-    uint thresholds = offset + count + 1u, aliases = thresholds + count;
-    bool stays = rest >> 8u < uint(phaseTexel(thresholds + bucket));
-    return stays ? bucket : uint(phaseTexel(aliases + bucket));
-}
-
 // Both distances from the ends of the interval come from their own formula: 1 - mu and 1 + mu keep
 // their digits in the outermost intervals. Values are scaled so that no square leaves the range.
-vec3 sampleTabulated(uint offset, uint count, uint interval, float u) {
+vec3 sampleTabulated(uint offset, uint count, Choice choice) {
+    uint interval = choice.entry;
     float low = phaseTexel(offset + interval), high = phaseTexel(offset + interval + 1u);
     float scale = max(low, high), a = safeDivide(low, scale), b = safeDivide(high, scale);
-    float root = sqrt(a * a * (1.0 - u) + b * b * u);
-    float fromLow = min(safeDivide(u * (a + b), a + root), 1.0);
-    float fromHigh = min(safeDivide((1.0 - u) * (a + b), b + root), 1.0);
+    float root = sqrt(a * a * choice.left + b * b * choice.offset);
+    float fromLow = min(safeDivide(choice.offset * (a + b), a + root), 1.0);
+    float fromHigh = min(safeDivide(choice.left * (a + b), b + root), 1.0);
     float width = 2.0 / float(count);
     float onePlusMu = (float(interval) + fromLow) * width;
     float oneMinusMu = (float(count - 1u - interval) + fromHigh) * width;
@@ -101,7 +95,7 @@ vec3 sampleTabulated(uint offset, uint count, uint interval, float u) {
     return vec3(mu, sqrt(oneMinusMu * onePlusMu), low * fromHigh + high * fromLow);
 }
 
-// Readies the phase function of a medium for sampling: `word` chooses the lobe or the interval.
+// Readies the phase function of a medium for sampling: `word` chooses the lobe, or fills up what chooses the interval.
 // Shader only: the reference refers to media and chooses in samplePhase.
 PhaseFunction choosePhase(Medium medium, uint word) {
     PhaseFunction phase = noPhase();
@@ -116,7 +110,8 @@ PhaseFunction choosePhase(Medium medium, uint word) {
     if (hasTabulatedPhase && medium.phase == kPhaseTabulated) {
         phase.offset = medium.phaseOffset;
         phase.count = medium.phaseCount;
-        phase.interval = chooseInterval(medium.phaseOffset, medium.phaseCount, word);
+        phase.distribution = medium.phaseDistribution;
+        phase.fill = toUniform(word);
     }
     return phase;
 }
@@ -132,7 +127,8 @@ float evalPhase(PhaseFunction p, vec3 wo, vec3 wi) {
 }
 
 // The deflection from the direction of travel, or from the world's z where scattering is isotropic.
-vec3 samplePhase(PhaseFunction p, float u) {
+vec3 samplePhase(PhaseFunction p, uint word) {
+    float u = toUniform(word);
     vec3 polar = vec3(1.0 - 2.0 * u, 2.0 * sqrt(u * (1.0 - u)), kInvFourPi);
     bool dual = hasDualHenyeyGreenstein && p.kind == kPhaseDualHenyeyGreenstein;
     if (dual || (hasHenyeyGreenstein && p.kind == kPhaseHenyeyGreenstein)) polar = sampleHenyeyGreenstein(p.g, u);
@@ -141,7 +137,8 @@ vec3 samplePhase(PhaseFunction p, float u) {
         polar.z = p.weight * polar.z + (1.0 - p.weight) * other;
     }
     if (hasRayleigh && p.kind == kPhaseRayleigh) polar = sampleRayleigh(u);
-    if (hasTabulatedPhase && p.kind == kPhaseTabulated) polar = sampleTabulated(p.offset, p.count, p.interval, u);
+    if (hasTabulatedPhase && p.kind == kPhaseTabulated)
+        polar = sampleTabulated(p.offset, p.count, invertDistribution(p.distribution, p.count, word, p.fill));
     return polar;
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/compile_scene.h"
 #include "reference/light/light.h"
 #include "reference/reference_renderer.h"
 #include "support/goodness.h"
 #include "support/hand_scene.h"
+#include "support/words.h"
 #include "unit/compile_fixtures.h"
 
 // Lights at their extremes, on the float reference.
@@ -92,7 +94,7 @@ TEST(PointsAtALight, StayBelowTheBoundOfTheBalanceHeuristic) {  // H65: fog that
         largest = std::max(largest, radiance.x);
         // Light sampling alone at the same depth of fog: Le f / pdf.
         const glm::vec3 point(0, 0, -2 + 0.1f * numbers.uniform<float>());
-        const auto sample = reference::sampleLight(view, point, glm::vec3(0, numbers.pair<float>()));
+        const auto sample = reference::sampleLight(view, point, test::lightWords(numbers.pair<float>()));
         if (sample) naive = std::max(naive, sample->radianceOverPdf.x / (4 * reference::kPi<float>));
     }
     // f / p of the isotropic phase function is 1: at most Le from each of the two techniques.
@@ -111,8 +113,46 @@ TEST(PointLight, AtTheVertexItselfSendsNothing) {  // H43
     bulb.vector = {1, 2, 3};
     scene.addLight(bulb);
     const reference::SceneView<float> view(scene.scene);
-    EXPECT_FALSE(reference::sampleLight(view, bulb.vector, glm::vec3(0.5f)));
+    EXPECT_FALSE(reference::sampleLight(view, bulb.vector, glm::uvec3(0x80000000u)));
     EXPECT_TRUE(std::isnan(glm::normalize(glm::vec3(0)).x)) << "the naive direction";
+}
+
+// H7, H44: 256 lights leave 2^15 of the 2^24 numbers that chose between them to a mesh of 81920 triangles. Each
+// triangle has a word in the middle of its own that finds it, as often as the density says.
+TEST(LightExtremes, EveryTriangleOfAMeshAmongManyLightsIsFound) {
+    SceneDescription description = fixtures::scene();
+    description.shapes = {fixtures::emissive(fixtures::soup("ball", test::icosphere(6)), {1e-3, 1e-3, 1e-3})};
+    EmitterDescription bulb;
+    bulb.type = EmitterDescription::Type::Point;
+    bulb.value = glm::dvec3(1000);
+    description.emitters.assign(shared::kMaxLights - 1, bulb);
+    const CompiledScene compiled = compileScene(description);
+    const reference::SceneView<double> view(compiled);
+    const reference::Light<double>& mesh = view.lights[0];
+    ASSERT_EQ(mesh.triangleCount, 81'920u);
+    EXPECT_LT(mesh.selection * 0x1p24, mesh.triangleCount) << "one number of 24 bits would not do";
+    const auto width = std::uint64_t(mesh.selection * 0x1p32);
+    const glm::uvec2* table = &compiled.distributions[mesh.distribution];
+    for (std::uint32_t i = 0; i < mesh.triangleCount; ++i) {
+        const std::uint32_t words = table[i + 1].x - table[i].x;
+        const std::uint64_t pair = (table[i].x + words / 2) * width;  // of x and z, that zoom in on the middle word
+        const glm::uvec3 draw(std::uint32_t(pair >> 32), 1u << 30, std::uint32_t(pair));
+        const std::uint32_t primitive = compiled.lightTriangles[mesh.triangleOffset + i];
+        const glm::dvec3 outside = 3.0 * reference::triangleSurface(view, primitive, glm::dvec2(0.3)).position -
+                                   2.0 * -glm::dvec3(compiled.worldOrigin);
+        const auto sample = reference::sampleLight(view, outside, draw);
+        ASSERT_TRUE(sample) << i;
+        ASSERT_EQ(sample->target, primitive) << i;
+        const glm::dvec3 normal = reference::flatNormal(view, primitive);
+        const double cosine = std::abs(glm::dot(normal, sample->direction));
+        const double perArea = sample->pdf * cosine / (sample->distance * sample->distance);
+        const glm::dvec3 a = view.vertex(primitive, 0), b = view.vertex(primitive, 1), c = view.vertex(primitive, 2);
+        const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+        ASSERT_NEAR(perArea * area / (mesh.selection * words * 0x1p-32), 1, 1e-6) << i;
+        const double met = reference::lightPdf(view, mesh, primitive, outside, sample->direction, sample->distance,
+                                               reference::lightCosine(mesh, normal, normal, -sample->direction));
+        ASSERT_NEAR(met / sample->pdf, 1, 1e-9) << i;
+    }
 }
 
 }  // namespace

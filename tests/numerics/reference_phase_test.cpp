@@ -7,6 +7,7 @@
 #include "reference/sampling/sampler.h"
 #include "reference/volume/phase_function.h"
 #include "support/phase_cases.h"
+#include "support/words.h"
 
 namespace parhelion::reference {
 namespace {
@@ -90,8 +91,7 @@ TEST(ReferencePhase, SampledDirectionsHaveTheDensityThatEvaluationGives) {  // H
         glm::uvec4 words{9, 8, 7, 6};
         for (int i = 0; i < 1000; ++i) {
             words = pcg4d(words);
-            const glm::dvec2 u{toUniform<double>(words.x), toUniform<double>(words.y)};
-            const DirectionSample<double> sample = samplePhase(medium, wo, u, 0);
+            const DirectionSample<double> sample = samplePhase(medium, wo, words, 0);
             EXPECT_NEAR(sample.pdf / evalPhase(medium, wo, sample.direction), 1, 1e-9);
             EXPECT_NEAR(glm::length(sample.direction), 1, 1e-15);
         }
@@ -105,7 +105,8 @@ TEST(ReferencePhase, MeanCosineOfTravelIsG) {  // H3, H6, H9: E[P_l(mu)] = g^l, 
         double first = 0, second = 0;
         for (int i = 0; i < kCount; ++i) {
             const glm::dvec3 wo{0, 1, 0};
-            const double mu = glm::dot(-wo, samplePhase(medium, wo, {(i + 0.5) / kCount, 0.25}, 0).direction);
+            const double mu =
+                glm::dot(-wo, samplePhase(medium, wo, {test::wordOf((i + 0.5) / kCount), 0}, 0).direction);
             first += mu;
             second += 1.5 * mu * mu - 0.5;
         }
@@ -138,8 +139,7 @@ TEST(ReferencePhase, TenThousandScatteringsKeepDirectionsUnit) {  // H11
         glm::uvec4 words{3, 3, 3, 3};
         for (int i = 0; i < 10000; ++i) {
             words = pcg4d(words);
-            const glm::vec2 u(toUniform<float>(words.x), toUniform<float>(words.y));
-            direction = samplePhase(medium, -direction, u, words.z).direction;
+            direction = samplePhase(medium, -direction, words, words.z).direction;
             ASSERT_NEAR(glm::length(glm::dvec3(direction)), 1, 2e-7) << phase.name();
         }
     }
@@ -190,7 +190,7 @@ TEST(ReferencePhase, EndsOfTheUnitIntervalGiveUnitDirectionsForEveryFunctionH4) 
         const Medium<float> medium = phase.medium<float>();
         for (const float u : {0.0f, 0x1p-24f, 0.5f, 1 - 0x1p-24f})
             for (const std::uint32_t word : {0u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
-                const auto sample = samplePhase(medium, glm::vec3(0, 0, -1), {u, 0}, word);
+                const auto sample = samplePhase(medium, glm::vec3(0, 0, -1), {test::wordOf(u), 0}, word);
                 EXPECT_NEAR(glm::length(glm::dvec3(sample.direction)), 1, 2e-7) << phase.name();
                 EXPECT_TRUE(std::isfinite(sample.pdf) && sample.pdf >= 0) << phase.name();
             }
@@ -205,8 +205,7 @@ TEST(ReferencePhase, EverySampledDirectionHasTheDensityThatEvaluationGivesH8) {
         glm::uvec4 words{9, 8, 7, 6};
         for (int i = 0; i < 1000; ++i) {
             words = pcg4d(words);
-            const glm::dvec2 u{toUniform<double>(words.x), toUniform<double>(words.y)};
-            const DirectionSample<double> sample = samplePhase(medium, wo, u, words.z);
+            const DirectionSample<double> sample = samplePhase(medium, wo, words, words.z);
             EXPECT_NEAR(sample.pdf, evalPhase(medium, wo, sample.direction), 1e-9 * (sample.pdf + 1)) << phase.name();
         }
     }

@@ -160,12 +160,28 @@ TEST(ReferenceWarp, TrianglePointsAreUniform) {
     for (int corner = 0; corner < 3; ++corner) EXPECT_NEAR(sum[corner] / (kSide * kSide), 1.0 / 3, 3e-5);
 }
 
-TEST(ReferenceDistribution, FindsTheFirstEntryAbove) {
-    const std::array<float, 4> cdf{0.25f, 0.25f, 0.75f, 1.0f};
-    EXPECT_EQ(firstAbove<double>(cdf, 0.0), 0u);
-    EXPECT_EQ(firstAbove<double>(cdf, 0.2499), 0u);
-    EXPECT_EQ(firstAbove<double>(cdf, 0.25), 2u);  // an entry of no probability is never found
-    EXPECT_EQ(firstAbove<float>(cdf, 1 - 0x1p-24f), 3u);
+TEST(ReferenceDistribution, FindsEntriesAndPlacesWithinThem) {
+    // A quarter, nothing, a half, a quarter, nothing; the last that has words is number 3.
+    const std::array<glm::uvec2, 6> table{{{0, 0}, {1u << 30, 0}, {1u << 30, 2}, {3u << 30, 2}, {0, 3}, {0, 3}}};
+    const auto expectPlace = [&](std::uint32_t word, double fill, std::uint32_t entry, double offset) {
+        const auto choice = invertDistribution(std::span<const glm::uvec2>(table), word, fill);
+        EXPECT_EQ(choice.entry, entry) << word;
+        EXPECT_EQ(choice.offset, offset) << word;
+    };
+    expectPlace(0, 0, 0, 0);
+    expectPlace((1u << 30) - 1, 0.5, 0, 1 - 0x1p-31);
+    expectPlace(1u << 30, 0, 2, 0);
+    expectPlace(1u << 31, 0, 2, 0.5);
+    expectPlace(0xffffffffu, 0.5, 3, 1 - 0x1p-31);
+    EXPECT_LT(invertDistribution<float>(table, 0xffffffffu, 0.999f).offset, 1.0f);
+}
+
+TEST(ReferenceDistribution, ZoomedWordsAreUniformAndRiseWithTheWord) {
+    // Of 3 words, from 5 on, and 2^32 fills: each third of the fills more is a third of a word more.
+    EXPECT_EQ(zoomWord({5, 0}, 5, 3), glm::uvec2(0, 0));
+    EXPECT_EQ(zoomWord({6, 0}, 5, 3), glm::uvec2(0x55555555u, 0x55555555u));
+    EXPECT_EQ(zoomWord({7, 0xffffffffu}, 5, 3), glm::uvec2(0xffffffffu, 0xaaaaaaaau));
+    EXPECT_EQ(zoomWord({7, 9}, 0, 0), glm::uvec2(7, 9));
 }
 
 TEST(ReferenceMis, WeightsOfTwoStrategiesSumToOne) {  // H69

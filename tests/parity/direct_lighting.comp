@@ -15,19 +15,19 @@ void probeItem() {
     switch (probeFunction) {
         case 0u:  // axis, g; wo, surface; wi; u
             probeOutput(0u, vec4(evalScatterer(s, c.xyz)));
-            probeOutput(1u, sampleScatterer(s, probeInput(3u).xy));
+            probeOutput(1u, sampleScatterer(s, floatBitsToUint(probeInput(3u).xy)));
             break;
         case 1u:  // ten thousand scatterings, one after the other
             uvec2 key = uvec2(7u, probeIndex());
             for (uint i = 0u; i < 10000u; ++i) {
                 uvec4 word = draw(key, i, kDrawScatter);
-                s.axis = sampleScatterer(s, vec2(toUniform(word.x), toUniform(word.y))).xyz;
+                s.axis = sampleScatterer(s, word.xy).xyz;
             }
             probeOutput(0u, vec4(s.axis, 0.0));
             break;
         case 2u:  // axis, g; wo, surface; position, largest factor; u
             uint tests = 0u;
-            DirectLight light = estimateDirect(s, c.xyz, probeInput(3u).xyz, uvec4(0u), c.w, tests);
+            DirectLight light = estimateDirect(s, c.xyz, floatBitsToUint(probeInput(3u).xyz), c.w, tests);
             probeOutput(0u, vec4(light.contribution, light.threshold));
             probeOutput(1u, vec4(light.direction, light.distance));
             break;

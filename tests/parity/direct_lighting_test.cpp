@@ -7,6 +7,7 @@
 #include "support/parity_report.h"
 #include "support/scene_probe.h"
 #include "support/stress.h"
+#include "support/words.h"
 
 namespace parhelion {
 namespace {
@@ -63,7 +64,8 @@ TEST(DirectLightingParity, ScatteringValueAndSampleAgree) {
     for (const Scatterer& scatterer : all) {
         scatterer.addTo(inputs);
         inputs.emplace_back(stress.direction(), 0);
-        inputs.emplace_back(uniforms[stress.word() % uniforms.size()], stress.between(0, 1), 0, 0);
+        const std::uint32_t word = test::wordOf(uniforms[stress.word() % uniforms.size()]);
+        inputs.emplace_back(glm::uintBitsToFloat(glm::uvec2(word, stress.word())), 0, 0);
     }
     const auto outputs = test::SceneProbe(test::HandScene().scene).run(kShader, kScatter, inputs, 4, 2);
     Parity value("integrator/direct_lighting", "evalScatterer", 30);  // of evalHenyeyGreenstein
@@ -75,7 +77,7 @@ TEST(DirectLightingParity, ScatteringValueAndSampleAgree) {
         const auto vertex = vertexOf(all[i], medium);
         const double expected = reference::evalScatterer(vertex, glm::dvec3(inputs[4 * i + 2]));
         EXPECT_TRUE(value.near(outputs[2 * i].x, expected, all[i].isSurface ? 1 : expected)) << i;
-        auto sample = reference::sampleScatterer(vertex, glm::dvec2(inputs[4 * i + 3]));
+        auto sample = reference::sampleScatterer(vertex, glm::floatBitsToUint(glm::vec2(inputs[4 * i + 3])));
         EXPECT_TRUE(direction.near(outputs[2 * i + 1], sample.direction)) << i;
         EXPECT_TRUE(density.near(outputs[2 * i + 1].w, sample.pdf, std::max(sample.pdf, 0.1))) << i;
     }
@@ -123,14 +125,15 @@ TEST(DirectLightingParity, EstimateAgreesOnSurfacesAndInMedia) {
     for (const Scatterer& scatterer : all) {
         scatterer.addTo(inputs);
         inputs.emplace_back(stress.point(1), scatterer.isSurface ? 0.7f : 1.0f);
-        inputs.emplace_back(stress.between(0, 1), stress.between(0, 1), stress.between(0, 1), 0);
+        inputs.emplace_back(glm::uintBitsToFloat(glm::uvec3(stress.word(), stress.word(), stress.word())), 0);
     }
     const auto outputs = test::SceneProbe(built.scene).run(kShader, kDirect, inputs, 4, 2);
     // Light sample 2 * 72, value 30, weight 11, two products; a direction's 72 turn a lobe's value by a / (1 - a).
     Parity parity("integrator/direct_lighting", "estimateDirect", 2 * 72 + 30 + 11 + 2);
     const Quality quality;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const auto light = reference::sampleLight(view, glm::dvec3(inputs[4 * i + 2]), glm::dvec3(inputs[4 * i + 3]));
+        const auto light = reference::sampleLight(view, glm::dvec3(inputs[4 * i + 2]),
+                                                  glm::floatBitsToUint(glm::vec3(inputs[4 * i + 3])));
         ASSERT_TRUE(light) << i;
         const auto medium = mediumOf(all[i]);
         const double value = reference::evalScatterer(vertexOf(all[i], medium), light->direction);

@@ -14,11 +14,11 @@ void probeItem() {
         }
         case 1u: probeOutput(0u, environmentAt(a.xyz)); break;
         case 3u: {  // a light of either kind
-            LightSample s = sampleSurrounding(scene.lights[0], vec2(toUniform(floatBitsToUint(a.x)), 0.25), floatBitsToUint(a));
+            LightSample s = sampleSurrounding(scene.lights[0], floatBitsToUint(a.xyz));
             probeOutput(0u, vec4(s.direction, s.pdf));
             probeOutput(1u, vec4(s.radianceOverPdf, s.distance));
             break;
         }
-        case 2u: probeOutput(0u, sampleEnvironment(floatBitsToUint(a))); break;
+        case 2u: probeOutput(0u, sampleEnvironment(floatBitsToUint(a.xyz))); break;
     }
 }

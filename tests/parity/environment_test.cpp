@@ -153,14 +153,17 @@ TEST(EnvironmentParity, SamplesOfSurroundingLightsAgree) {
         for (int i = 0; i < 3'000; ++i) {
             glm::uvec4 words;
             for (int c = 0; c < 4; ++c) words[c] = stress.word();
-            words.z = words.z / 4 + 0x60000000u;  // off the borders of the sky's bands, where rounding finds the next
             inputs.push_back(glm::uintBitsToFloat(words));
         }
         const auto outputs = test::SceneProbe(scene.scene).run(kShader, kSurrounding, inputs, 1, 2);
         for (std::size_t i = 0; i < inputs.size(); ++i) {
             const glm::uvec4 words = glm::floatBitsToUint(inputs[i]);
-            const glm::dvec2 u(reference::toUniform<double>(words.x), 0.25);
-            const auto expected = reference::sampleSurrounding(view, view.lights[0], u, words);
+            if (view.lights[0].type == shared::kLightSky) {
+                // Next to the borders of the sky's bands rounding finds the next.
+                const std::span<const glm::uvec2> table(scene.scene.distributions);
+                if (std::abs(reference::invertDistribution(table, words.x, 0.5).offset - 0.5) > 0.49) continue;
+            }
+            const auto expected = reference::sampleSurrounding(view, view.lights[0], words);
             ASSERT_TRUE(expected);
             EXPECT_TRUE(parity.near(glm::dvec3(outputs[2 * i]), expected->direction)) << i;
             EXPECT_TRUE(parity.near(outputs[2 * i].w, expected->pdf)) << i;

@@ -7,6 +7,7 @@
 #include "support/parity_report.h"
 #include "support/scene_probe.h"
 #include "support/stress.h"
+#include "support/words.h"
 
 namespace parhelion {
 namespace {
@@ -16,7 +17,7 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/light.comp";
-enum Function : std::uint32_t { kSample, kCone, kPdf, kCosine };
+enum Function : std::uint32_t { kSample, kCone, kPdf, kCosine, kArea };
 
 /// One light of each type; H71: from 1e-10 to 1e10 strong. Two-sided, the quad turns its back on the samples.
 struct LitScene : test::HandScene {
@@ -70,36 +71,28 @@ protected:
             c.cosine = 1 + 1 / (1 - sine2);
             c.distance = 1 + reach / std::max(half, 1e-9);
         } else if (!sample.isDelta) {
-            const double area = light == 0 ? scene_.quads[0].area : scene_.lights[light].area;
+            const double area = light == 0 ? scene_.quads[0].area : reference::meshArea(scene_, sample.target);
             c.cosine = 1 + solid * area / (sample.distance * sample.distance);  // 1 / cosine
         }
         return c;
-    }
-
-    /// Whether rounding may choose the neighbour of a mesh light's triangle.
-    bool isOnStep(std::size_t light, double u) const {
-        if (scene_.lights[light].type != shared::kLightMesh) return false;
-        const double selector = (u - scene_.lights[light - 1].cumulative) / scene_.lights[light].selection;
-        for (const float step : built_.scene.lightTriangleCdf)
-            if (std::abs(selector - double(step)) < 2e-6) return true;
-        return false;
     }
 
     LitScene built_{GetParam()};
     reference::SceneView<double> scene_{built_.scene};
 };
 
+/// Positions and words of a light draw.
 std::vector<glm::vec4> samples() {
     std::vector<glm::vec4> inputs;
     Stress stress(28);
-    for (const float u : test::stressUniforms(20'000)) {
-        inputs.emplace_back(stress.point(2.5f), 0);
-        inputs.emplace_back(u, stress.between(0, 1), stress.between(0, 1), 0);
-    }
-    inputs.emplace_back(4, 0.5f, -0.3f, 0);  // in the middle of the sphere
-    inputs.emplace_back(0.25f, 0.5f, 0.5f, 0);
-    inputs.emplace_back(0.5f, 2, 0.5f, 0);  // H65: at the point light
-    inputs.emplace_back(0.75f, 0.5f, 0.5f, 0);
+    const auto add = [&inputs](const glm::vec3& position, const glm::uvec3& words) {
+        inputs.emplace_back(position, 0);
+        inputs.emplace_back(glm::uintBitsToFloat(words), 0);
+    };
+    for (const float u : test::stressUniforms(20'000))
+        add(stress.point(2.5f), {test::wordOf(u) + stress.word() % 256, stress.word(), stress.word()});
+    add({4, 0.5f, -0.3f}, {1u << 30, 1u << 31, 0});  // in the middle of the sphere
+    add({0.5f, 2, 0.5f}, {3u << 30, 1u << 31, 0});   // H65: at the point light
     return inputs;
 }
 
@@ -113,12 +106,12 @@ TEST_P(LightParity, SampleAgreesForEveryLightH63H65H71) {
     Parity density("light/area_light", "sampleArea sampleSphereLight sampleMeshLight", 2 * (3 * 21 + 9));
     std::array<int, 6> compared{};
     for (std::size_t i = 0; i < inputs.size() / 2; ++i) {
-        const glm::dvec3 position(inputs[2 * i]), u(inputs[2 * i + 1]);
+        const glm::dvec3 position(inputs[2 * i]);
+        const glm::uvec3 words = glm::floatBitsToUint(glm::vec3(inputs[2 * i + 1]));
         const glm::vec4 first = outputs[3 * i], second = outputs[3 * i + 1];
-        const std::size_t light = reference::selectLight(scene_, u.x);
-        EXPECT_TRUE(select.equal(glm::floatBitsToUint(outputs[3 * i + 2].y), light)) << u.x;
-        if (isOnStep(light, u.x)) continue;
-        const auto sample = reference::sampleLight(scene_, position, u);
+        const std::size_t light = reference::selectLight(scene_, reference::toUniform<double>(words.x));
+        EXPECT_TRUE(select.equal(glm::floatBitsToUint(outputs[3 * i + 2].y), light)) << words.x;
+        const auto sample = reference::sampleLight(scene_, position, words);
         if (!sample) {
             EXPECT_EQ(glm::vec3(second), glm::vec3(0)) << i;
             continue;
@@ -192,9 +185,22 @@ TEST_P(LightParity, DensityOfALightMetByChanceAgrees) {
         const double distance = inputs[2 * i + 1].x, cosine = inputs[2 * i + 1].y;
         const glm::dvec3 direction(std::sqrt(1 - cosine * cosine), cosine, 0);
         const bool isDelta = light.type == shared::kLightDirectional || light.type == shared::kLightPoint;
-        const double expected = isDelta ? 0 : reference::lightPdf(scene_, light, origin, direction, distance, cosine);
+        const double expected =
+            isDelta ? 0 : reference::lightPdf(scene_, light, light.primitive, origin, direction, distance, cosine);
         EXPECT_TRUE(parity.near(outputs[i].x, expected, 4 * expected)) << i << ", type " << light.type;
     }
+}
+
+TEST_P(LightParity, AreasOfTrianglesAreTheTables) {
+    std::vector<glm::vec4> inputs;
+    for (std::uint32_t i = 0; i < built_.scene.constants.triangleCount; ++i) {
+        inputs.emplace_back(0);
+        inputs.emplace_back(scene_.firstTriangle + i, 0, 0, 0);
+    }
+    const auto outputs = test::SceneProbe(built_.scene).run(kShader, kArea, inputs, 2, 1);
+    Parity parity("light/area_light", "meshArea", 0);
+    for (std::uint32_t i = 0; i < outputs.size(); ++i)
+        EXPECT_TRUE(parity.near(outputs[i].x, reference::meshArea(scene_, scene_.firstTriangle + i))) << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(OneSideAndBoth, LightParity, testing::Bool(),

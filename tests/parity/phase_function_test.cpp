@@ -7,6 +7,7 @@
 #include "support/phase_cases.h"
 #include "support/scene_probe.h"
 #include "support/stress.h"
+#include "support/words.h"
 
 namespace parhelion {
 namespace {
@@ -204,32 +205,27 @@ TEST(TabulatedPhaseParity, SampleAgreesInEveryInterval) {
     // Quotients a, b 5 each and 10 in squares; the root takes half of 13 and 6; sum and two products 10, two quotients
     // 10, then width (5), sum and product, and a root of a product.
     constexpr double kAllowed = 45;
-    Parity sample("volume/phase_function", "sampleTabulated", kAllowed),
-        choice("volume/phase_function", "chooseInterval", 0);
+    Parity sample("volume/phase_function", "sampleTabulated", kAllowed);
     Stress stress(20);
     for (const PhaseCase& phase : tables()) {
         const shared::Medium& medium = phase.record();
         const float* table = phase.scene().phaseTable.data();
         std::vector<glm::vec4> inputs;
-        std::vector<std::uint32_t> words{0, 1, 0xffffffffu, 0x80000000u, 0x7fffffffu};
         for (const float u : test::stressUniforms(500)) {
             std::uint32_t interval = stress.word() % medium.phaseCount;
             while (table[interval] + table[interval + 1] == 0) interval = (interval + 1) % medium.phaseCount;
-            words.push_back(stress.word());
-            addTo(inputs, u, 0, {0, 0, 1}, {0, 0, 1}, interval, words[inputs.size() / 3]);
+            addTo(inputs, u, 0, {0, 0, 1}, {0, 0, 1}, interval);
         }
         const auto outputs = run(kTable, inputs, phase.scene());
         for (std::size_t i = 0; i < outputs.size() / 2; ++i) {
             const auto interval = std::uint32_t(inputs[3 * i].z);
-            const auto expected =
-                reference::sampleTabulated(table, medium.phaseCount, interval, double(inputs[3 * i].x));
+            const auto expected = reference::sampleTabulated<double>(
+                table, medium.phaseCount, {interval, inputs[3 * i].x, 1.0 - inputs[3 * i].x});
             EXPECT_TRUE(sample.near(outputs[2 * i].x, expected.mu, 1)) << phase.name() << ' ' << i;
             EXPECT_TRUE(sample.near(outputs[2 * i].y, expected.sinTheta, std::max(expected.sinTheta, 1e-15)))
                 << phase.name() << ' ' << i;
             EXPECT_TRUE(sample.near(outputs[2 * i].z, expected.pdf, std::max(expected.pdf, 1e-30)))
                 << phase.name() << ' ' << i;
-            EXPECT_TRUE(choice.equal(std::uint64_t(outputs[2 * i].w),
-                                     reference::chooseInterval(table, medium.phaseCount, words[i])));
         }
     }
 }
@@ -285,7 +281,7 @@ TEST(PhaseParity, EveryKindSamplesAndEvaluatesAlikeH7H8) {
             const double expected = reference::evalPhase(medium, wo, wi);
             EXPECT_TRUE(value.near(outputs[2 * i + 1].x, expected, isTable ? expected + 10 : expected)) << phase.name();
             const auto drawn =
-                reference::samplePhase(medium, glm::dvec3(0, 0, -1), {double(inputs[3 * i].x), 0}, words[i]);
+                reference::samplePhase(medium, glm::dvec3(0, 0, -1), {test::wordOf(inputs[3 * i].x), 0}, words[i]);
             EXPECT_TRUE(sample.near(outputs[2 * i].x, drawn.direction.z, 1)) << phase.name() << ' ' << i;
             EXPECT_TRUE(sample.near(outputs[2 * i].z, drawn.pdf, std::max(drawn.pdf, 1e-30)))
                 << phase.name() << ' ' << i;

@@ -22,7 +22,7 @@ void probeItem() {
         }
         case 1u:
             probeOutput(0u, vec4(cornerOffsets(word), toUniform(word.x)));
-            probeOutput(1u, vec4(exponential(word.x, word.y & 0xffffffu), 0.0, 0.0, 0.0));
+            probeOutput(1u, vec4(exponential(word.x, word.y & 0xffffffu), fillDigits(word.x), 0.0));
             break;
     }
 }

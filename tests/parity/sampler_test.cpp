@@ -98,11 +98,14 @@ TEST(SamplerParity, HashIsThePublishedOne) {
 TEST(SamplerParity, UniformsAreExactAndBelowOne) {
     const auto inputs = words();
     const auto outputs = test::probe(kShader, kNumbers, asFloats(inputs), 1, 2);
-    Parity uniform("sampling/sampler", "toUniform", 0), corner("sampling/sampler", "cornerOffsets", 0);
+    Parity uniform("sampling/sampler", "toUniform", 0), corner("sampling/sampler", "cornerOffsets", 0),
+        fill("sampling/sampler", "fillDigits", 0);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         EXPECT_TRUE(uniform.near(outputs[2 * i].w, reference::toUniform<double>(inputs[i].x))) << i;
         EXPECT_TRUE(corner.near(outputs[2 * i], reference::cornerOffsets<double>(inputs[i]))) << i;
         EXPECT_LT(outputs[2 * i].w, 1.0f);
+        const glm::dvec2 digits = reference::fillDigits<double>(inputs[i].x);
+        for (int c = 0; c < 2; ++c) EXPECT_TRUE(fill.near(outputs[2 * i + 1][1 + c], digits[c])) << i;
     }
 }
 

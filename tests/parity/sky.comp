@@ -16,7 +16,7 @@ void probeItem() {
             break;
         }
         case 4u: {
-            SkyPoint point = sampleSky(floatBitsToUint(a));
+            SkyPoint point = sampleSky(floatBitsToUint(a.xyz));
             probeOutput(0u, vec4(point.direction, uintBitsToFloat(point.star)));
             break;
         }

@@ -3,9 +3,11 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
+#include "compile/distribution_table.h"
 #include "reference/light/light.h"
 #include "support/goodness.h"
 #include "support/light_scenes.h"
+#include "support/words.h"
 #include "unit/compile_fixtures.h"
 
 // Sampled directions against where they must lie by geometry, and lightPdf against the same by quadrature.
@@ -15,6 +17,7 @@ namespace {
 using test::CellTest;
 using test::HandScene;
 using test::IndependentNumbers;
+using test::lightWords;
 using test::meshLight;
 using test::partOf;
 using test::quadLight;
@@ -24,12 +27,11 @@ using Gauss = boost::math::quadrature::gauss<double, 20>;
 
 double significance() { return sidak(test::kFamilySignificance, 20); }
 
-glm::vec3 lightPoint(const glm::vec3& u) { return {0, u.y, u.z}; }
-
-/// lightPdf of a flat light.
+/// lightPdf of a flat light: of one of its primitives, if it has several.
 double pdfOf(const SceneView<double>& view, const Light<double>& light, const glm::dvec3& origin,
-             const glm::dvec3& direction, double distance, const glm::dvec3& normal) {
-    return lightPdf(view, light, origin, direction, distance, lightCosine(light, normal, normal, -direction));
+             const glm::dvec3& direction, double distance, const glm::dvec3& normal, std::uint32_t primitive = kNone) {
+    const double cosine = lightCosine(light, normal, normal, -direction);
+    return lightPdf(view, light, primitive, origin, direction, distance, cosine);
 }
 
 /// Where on the quad a direction from `position` leads, as (u, v), solved in double.
@@ -45,8 +47,8 @@ TEST(LightSampling, QuadsAreUniformOverTheirArea) {
         CellTest cells(36, significance());
         IndependentNumbers numbers(1);
         for (std::uint64_t i = cells.samplesNeeded(); i > 0; --i) {
-            const glm::vec3 u = lightPoint({0, test::bent(numbers.pair<float>(), bends)});
-            const auto sample = sampleLight(view, glm::vec3(0.1f), u).value();
+            const glm::uvec3 words = lightWords(test::bent(numbers.pair<float>(), bends));
+            const auto sample = sampleLight(view, glm::vec3(0.1f), words).value();
             const auto at = quadParameters(scene.scene.constants.quads[0], glm::dvec3(0.1f), sample.direction);
             cells.add(partOf(at.x, 6) * 6 + partOf(at.y, 6));
         }
@@ -91,15 +93,14 @@ TEST(LightSampling, SampledAndEvaluatedDensitiesAreOne) {
     IndependentNumbers numbers(2);
     int compared = 0;
     for (int i = 0; i < 100'000; ++i) {
-        const double first = numbers.uniform<double>();
-        const glm::dvec2 u = numbers.pair<double>();
+        const glm::uvec3 words(numbers.words());
         const glm::dvec3 position{0.1, 0.2, -4};
-        const auto sample = sampleLight(view, position, glm::dvec3(first, u));
+        const auto sample = sampleLight(view, position, words);
         if (!sample) continue;
-        const Light<double>& light = view.lights[selectLight(view, first)];
+        const Light<double>& light = view.lights[selectLight(view, toUniform<double>(words.x))];
         glm::dvec3 normal = -sample->direction;
         if (light.type != shared::kLightSphere && sample->target != kNone) normal = flatNormal(view, sample->target);
-        const double pdf = pdfOf(view, light, position, sample->direction, sample->distance, normal);
+        const double pdf = pdfOf(view, light, position, sample->direction, sample->distance, normal, sample->target);
         ASSERT_NEAR(pdf / sample->pdf, 1, 1e-9) << light.type;
         ++compared;
     }
@@ -136,7 +137,7 @@ TEST(LightSampling, TwoSidesAreSampledAsTheFrontIs) {
     IndependentNumbers numbers(7);
     int fromFront = 0, fromBehind = 0;
     for (int i = 0; i < 10'000; ++i) {
-        const glm::dvec3 u(numbers.uniform<double>(), numbers.pair<double>());
+        const glm::uvec3 u(numbers.words());
         const glm::dvec3 origin(0);
         const auto inFront = sampleLight(oneSided, origin, u), behind = sampleLight(turned, origin, u);
         ASSERT_NE(inFront.has_value(), behind.has_value()) << "one side or the other";
@@ -148,10 +149,10 @@ TEST(LightSampling, TwoSidesAreSampledAsTheFrontIs) {
             EXPECT_EQ(sample->direction, expected.direction);
             EXPECT_EQ(sample->pdf, expected.pdf);
             EXPECT_EQ(sample->radianceOverPdf, expected.radianceOverPdf);
-            const Light<double>& light = view.lights[selectLight(view, u.x)];
+            const Light<double>& light = view.lights[selectLight(view, toUniform<double>(u.x))];
             const glm::dvec3 normal = flatNormal(view, sample->target);
-            EXPECT_EQ(pdfOf(view, light, origin, sample->direction, sample->distance, normal),
-                      pdfOf(view, light, origin, sample->direction, sample->distance, -normal));
+            EXPECT_EQ(pdfOf(view, light, origin, sample->direction, sample->distance, normal, sample->target),
+                      pdfOf(view, light, origin, sample->direction, sample->distance, -normal, sample->target));
         }
     }
     // The triangle that turns the other way has 7/9 of the mesh's area: 39 % of the samples.
@@ -168,7 +169,7 @@ TEST(LightSampling, SpheresAreUniformOverTheirVisibleCone) {
         IndependentNumbers numbers(3);
         for (std::uint64_t i = cells.samplesNeeded(); i > 0; --i) {
             const glm::vec2 u = numbers.pair<float>();
-            const glm::dvec3 d(sampleLight(view, glm::vec3(0), lightPoint({0, u})).value().direction);
+            const glm::dvec3 d(sampleLight(view, glm::vec3(0), lightWords(u)).value().direction);
             const double sin2 = d.x * d.x + d.y * d.y, oneMinusCos = sin2 / (1 + std::sqrt(std::max(0.0, 1 - sin2)));
             const std::size_t turn = partOf(test::turnOf(d.x, d.y), 3);
             cells.add(partOf(oneMinusCos / width, 6) * 3 + turn);
@@ -182,7 +183,7 @@ TEST(LightSampling, SpheresAreUniformOverTheirVisibleCone) {
         EXPECT_NEAR(pdf * 2 * kPi<double> * width, 1, 1e-6);
     }
     const HandScene around = sphereLight(3);
-    EXPECT_FALSE(sampleLight(SceneView<float>(around.scene), glm::vec3(0), glm::vec3(0, 0.3f, 0.4f)));
+    EXPECT_FALSE(sampleLight(SceneView<float>(around.scene), glm::vec3(0), lightWords(glm::vec2(0.3f, 0.4f))));
 }
 
 /// Where on the mesh a sample lies, in double: the triangle, and the shares of its base and of its height.
@@ -190,8 +191,8 @@ struct MeshPoint {
     int triangle;
     double base, height;
 };
-MeshPoint meshPoint(const SceneView<float>& view, const glm::vec3& u) {
-    const glm::dvec3 d(sampleLight(view, glm::vec3(0), u).value().direction);
+MeshPoint meshPoint(const SceneView<float>& view, const glm::uvec3& words) {
+    const glm::dvec3 d(sampleLight(view, glm::vec3(0), words).value().direction);
     const double x = 2 * d.x / d.z, y = 2 * d.y / d.z;
     const int i = std::min(int(x), 3);
     return {i, (x - i) / double(test::kTriangleBase), y / (i + 1)};
@@ -207,8 +208,7 @@ TEST(LightSampling, MeshTrianglesAreChosenByArea) {
         CellTest cells(shares, significance());
         IndependentNumbers numbers(4);
         for (std::uint64_t n = cells.samplesNeeded(); n > 0; --n) {
-            const float u = numbers.uniform<float>();
-            const MeshPoint point = meshPoint(view, glm::vec3(u, numbers.pair<float>()));
+            const MeshPoint point = meshPoint(view, numbers.words());
             // Left of the middle of its base a right triangle has three quarters of its area.
             cells.add(std::size_t(2 * point.triangle) + (point.base > 0.5 ? 1u : 0u));
         }
@@ -216,8 +216,8 @@ TEST(LightSampling, MeshTrianglesAreChosenByArea) {
     };
     run(scene.scene).expectFit("mesh");
     CompiledScene even = scene.scene, off = scene.scene;
-    even.lightTriangleCdf = {0.25f, 0.5f, 0.75f, 1};
-    off.lightTriangleCdf[1] *= 1.02f;
+    even.distributions = buildDistribution(std::vector<double>(4, 1.0)).texels;
+    off.distributions[2].x += off.distributions[2].x / 50;
     run(even).expectMisfit("every triangle as often");
     run(off).expectMisfit("one bound off by 2 %");
 }
@@ -229,8 +229,9 @@ TEST(LightSampling, MeshesAreUniformWithinTheirTriangles) {
         CellTest cells(36, significance());
         IndependentNumbers numbers(8);
         for (std::uint64_t n = cells.samplesNeeded(); n > 0; --n) {
-            const float u = numbers.uniform<float>();
-            const MeshPoint point = meshPoint(view, glm::vec3(u, test::bent(numbers.pair<float>(), bends)));
+            const glm::uvec4 words = numbers.words({0, bends.y, 0, 0});
+            const std::uint32_t x = test::bentWithin(scene.scene.distributions, words.x, bends.x);
+            const MeshPoint point = meshPoint(view, {x, words.y, words.z});
             cells.add(test::triangleCell(point.base, point.height));
         }
         return cells;
@@ -277,7 +278,7 @@ TEST(LightSampling, EnvironmentIsUniform) {
     CellTest cells(18, significance()), tilted(18, significance());
     IndependentNumbers numbers(6);
     for (std::uint64_t i = cells.samplesNeeded(); i > 0; --i) {
-        const auto sample = sampleLight(view, glm::vec3(1), lightPoint({0, numbers.pair<float>()})).value();
+        const auto sample = sampleLight(view, glm::vec3(1), lightWords(numbers.pair<float>())).value();
         const glm::dvec3 d(sample.direction);
         cells.add(partOf((1 - d.z) / 2, 6) * 3 + partOf(test::turnOf(d.x, d.y), 3));
         tilted.add(partOf((1 - d.z) / 2 + 0.01 * (1 - d.z * d.z), 6) * 3 + partOf(test::turnOf(d.x, d.y), 3));

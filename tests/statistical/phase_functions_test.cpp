@@ -8,6 +8,7 @@
 #include "reference/volume/phase_function.h"
 #include "support/goodness.h"
 #include "support/phase_cases.h"
+#include "support/words.h"
 
 // Dual, Rayleigh and tabulated phase functions against closed-form distribution functions and moments.
 // Henyey-Greenstein itself: samplers_test. Family: 10 functions, 10 x 4 moments, 200 bins, one rare lobe.
@@ -54,14 +55,13 @@ TEST(PhaseFunctions, SeededDefectsAreCaught) {
                   }()},
                  0.01);
     expectCaught({"table", test::tabulated({0, 1, 3})}, {"a value off by 2 %", test::tabulated({0, 1.02, 3})}, 1);
-    const Medium<float> medium = table.medium<float>();
-    scatterEqually(
-        table,
-        [&](const glm::vec3& wo, const glm::vec2& u, std::uint32_t) {
-            return samplePhase(medium, wo, u, std::uint32_t(u.x * 0x1p32f)).direction;
-        },
-        0.25)
-        .expectMisfit("the same number chooses the interval and the place in it");
+    const PhaseCase two("two intervals", test::tabulated({0, 1, 3}));
+    const Medium<float> medium = two.medium<float>();
+    scatterEqually(two, [&](const glm::vec3& wo, const glm::vec2& u, std::uint32_t choice) {
+        glm::uvec2 words = test::wordsOf(u);
+        words.x = test::bentWithin(two.scene().distributions, words.x, 0.05);
+        return samplePhase(medium, wo, words, choice).direction;
+    }).expectMisfit("what is left of the word within its interval bent by 5 %");
 }
 
 /// 20 x 10 cells of equal extent in (cos theta, phi).
@@ -93,14 +93,14 @@ TEST(PhaseFunctions, RareLobesKeepTheirShapeH7) {
     const PhaseCase rare("rare", dualHenyeyGreenstein(0.9, -0.5, weight)), lobe("lobe", test::henyeyGreenstein(0.9));
     const Medium<float> medium = rare.medium<float>();
     scatterEqually(lobe, [&](const glm::vec3& wo, const glm::vec2& u, std::uint32_t word) {
-        return samplePhase(medium, wo, u, word >> 20).direction;
+        return samplePhase(medium, wo, test::wordsOf(u), word >> 20).direction;
     }).expectFit("lobe of weight 2^-20");
     const Medium<float> single = lobe.medium<float>();
     scatterEqually(
         lobe,
         [&](const glm::vec3& wo, const glm::vec2& u, std::uint32_t) {
             const float rescaled = std::floor(u.x * weight * 0x1p24f) * 0x1p-24f / weight;
-            return samplePhase(single, wo, {rescaled, u.y}, 0).direction;
+            return samplePhase(single, wo, test::wordsOf(glm::vec2(rescaled, u.y)), 0).direction;
         },
         0.25)
         .expectMisfit("one number chooses the lobe and the direction");
@@ -111,8 +111,8 @@ std::array<RunningMoments, 4> legendreMoments(const PhaseCase& phase, int count)
     const Medium<float> medium = phase.medium<float>();
     IndependentNumbers numbers(12);
     for (int i = 0; i < count; ++i) {
-        const glm::vec2 u = numbers.pair<float>();
-        const auto direction = samplePhase(medium, glm::vec3(0, 0, -1), u, numbers.word()).direction;
+        const glm::uvec4 words = numbers.words();
+        const auto direction = samplePhase(medium, glm::vec3(0, 0, -1), words, words.z).direction;
         const auto values = test::legendre(double(direction.z));
         for (int l = 0; l < 4; ++l) moments[l].add(values[l]);
     }

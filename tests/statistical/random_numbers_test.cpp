@@ -76,8 +76,8 @@ double worstAgreement(std::uint32_t first, std::uint32_t second) {
 // Draws of one vertex for two purposes are as good as independent (H75): a shadow ray must not meet its collisions
 // where the number that chose its direction says.
 TEST(RandomWords, PurposesShareNoBits) {
-    std::vector<std::uint32_t> purposes{shared::kDrawCamera, shared::kDrawLight,   shared::kDrawScatter,
-                                        shared::kDrawAlbedo, shared::kDrawFeature, shared::kDrawEnvironment};
+    std::vector<std::uint32_t> purposes{shared::kDrawCamera, shared::kDrawLight, shared::kDrawScatter,
+                                        shared::kDrawAlbedo, shared::kDrawFeature};
     for (std::uint32_t index = 0; index < 6; ++index)
         for (const std::uint32_t kind : {shared::kDrawFlight, shared::kDrawShadow})
             purposes.push_back(kind | index << shared::kDrawIndexShift);

@@ -9,6 +9,7 @@
 #include "reference/surface/bsdf.h"
 #include "reference/volume/phase_function.h"
 #include "support/phase_cases.h"
+#include "support/words.h"
 
 // Directions and points against closed-form distribution functions. Family: 8 phase functions, 7 x 4 moments, 9 warps
 // and directions, 3 x 2 moments of cosines.
@@ -42,7 +43,7 @@ TEST(PhaseSampling, FollowsTheClosedFormDistribution) {
     Medium<float> isotropic{};
     isotropic.phase = shared::kPhaseIsotropic;
     scatterEqually(phaseCase(0), [&](const glm::vec3& wo, const glm::vec2& u, std::uint32_t choice) {
-        return samplePhase(isotropic, wo, u, choice).direction;
+        return samplePhase(isotropic, wo, test::wordsOf(u), choice).direction;
     }).expectFit("isotropic");
 }
 

@@ -6,7 +6,9 @@
 
 #include "compile/bvh_builder.h"
 #include "compile/compile_environment.h"
+#include "compile/compile_lights.h"
 #include "compile/compile_sky.h"
+#include "compile/distribution_table.h"
 #include "reference/reference_renderer.h"
 
 namespace parhelion::test {
@@ -171,14 +173,8 @@ void HandScene::addLight(shared::Light light, bool isSampled) {
     light.texture = kNone;
     scene.constants.lights[scene.constants.lightCount++] = light;
     sampled_.push_back(isSampled);
-    const auto count = float(std::count(sampled_.begin(), sampled_.end(), true));
-    float taken = 0;
-    for (std::size_t i = 0; i < sampled_.size(); ++i) {
-        shared::Light& l = scene.constants.lights[i];
-        taken += sampled_[i] ? 1.0f : 0.0f;
-        l.selection = sampled_[i] ? 1.0f / count : 0.0f;
-        l.cumulative = count == 0 ? 0.0f : taken / count;
-    }
+    const std::vector<double> powers(sampled_.begin(), sampled_.end());
+    assignSelection(powers, std::span(scene.constants.lights).first(powers.size()));
 }
 
 void HandScene::addAreaLight(std::uint32_t type, std::uint32_t primitive, std::uint32_t shape, glm::vec3 radiance,
@@ -194,19 +190,23 @@ void HandScene::addAreaLight(std::uint32_t type, std::uint32_t primitive, std::u
 void HandScene::addMeshLight(std::uint32_t shape, glm::vec3 radiance, bool isSampled) {
     shared::Light light{};
     light.triangleCount = scene.constants.triangleCount;
+    light.triangleOffset = std::uint32_t(scene.lightTriangles.size());
+    light.distribution = std::uint32_t(scene.distributions.size());
     std::vector<double> areas;
-    double total = 0;
     for (std::uint32_t i = 0; i < light.triangleCount; ++i) {
         const glm::dvec3 v0(scene.triangles[3 * i]), v1(scene.triangles[3 * i + 1]), v2(scene.triangles[3 * i + 2]);
-        areas.push_back(total += 0.5 * glm::length(glm::cross(v1 - v0, v2 - v0)));
+        areas.push_back(0.5 * glm::length(glm::cross(v1 - v0, v2 - v0)));
         scene.lightTriangles.push_back(scene.constants.quadCount + scene.constants.sphereCount +
                                        scene.constants.boxCount + i);
     }
-    for (const double area : areas) scene.lightTriangleCdf.push_back(float(area / total));
+    const DistributionTable table = buildDistribution(areas);
+    scene.distributions.insert(scene.distributions.end(), table.texels.begin(), table.texels.end());
+    for (std::size_t i = 0; i < areas.size(); ++i)
+        scene.triangleAreas.push_back(float(areas[i] / table.probabilities[i]));
     scene.shapes[shape].light = scene.constants.lightCount;
     light.type = shared::kLightMesh;
+    light.primitive = scene.lightTriangles[light.triangleOffset];
     light.emission = radiance;
-    light.area = float(total);
     addLight(light, isSampled);
 }
 

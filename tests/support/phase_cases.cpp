@@ -7,6 +7,7 @@
 
 #include "compile/compile_phase.h"
 #include "reference/volume/phase_function.h"
+#include "support/words.h"
 
 namespace parhelion::test {
 namespace {
@@ -168,7 +169,7 @@ std::vector<PhaseCase> newPhaseCases() {
 
 PhaseSampler samplerOf(const PhaseCase& phase) {
     return [medium = phase.medium<float>()](const glm::vec3& wo, const glm::vec2& u, std::uint32_t choice) {
-        return reference::samplePhase(medium, wo, u, choice).direction;
+        return reference::samplePhase(medium, wo, wordsOf(u), choice).direction;
     };
 }
 

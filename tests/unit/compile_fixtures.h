@@ -76,6 +76,18 @@ inline ShapeDescription meshCube(const std::string& id, const glm::dvec3& center
     return meshOf(id, std::move(mesh));
 }
 
+
+/// A mesh from the vertices of its triangles, one after the other.
+inline ShapeDescription soup(const std::string& id, const std::vector<glm::vec3>& vertices) {
+    ShapeDescription result = shape(ShapeDescription::Type::Mesh, id, glm::dmat4(1.0));
+    for (const glm::vec3& vertex : vertices) {
+        const auto index = std::uint32_t(result.mesh.positions.size());
+        if (index % 3 == 0) result.mesh.triangles.emplace_back(index, index + 1, index + 2);
+        result.mesh.positions.emplace_back(vertex);
+    }
+    return result;
+}
+
 /// Turns a shape into a medium boundary.
 inline ShapeDescription boundary(ShapeDescription shape, std::size_t interior) {
     shape.bsdf.type = BsdfDescription::Type::Null;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "unit/compile_fixtures.h"
 
@@ -148,6 +149,23 @@ TEST(CompiledLights, ASphereThatEmitsInwardsIsNeverSampled) {
     EXPECT_EQ(compiled.constants.spheres[0].flags, shared::kShapeFlipNormal);
 }
 
+/// The table of a mesh light, and what its words make of the triangles' areas.
+void expectChosenByArea(const CompiledScene& compiled, const shared::Light& light, const std::vector<double>& areas) {
+    const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+    double running = 0.0;
+    for (unsigned i = 0; i < areas.size(); ++i) {
+        const glm::uvec2* entry = &compiled.distributions[light.distribution + i];
+        EXPECT_NEAR(entry->x * 0x1p-32, running / total, 0x1p-32);
+        running += areas[i];
+        // Rounded once.
+        const double chance = (entry[1].x - entry->x) * 0x1p-32;
+        const std::uint32_t primitive = compiled.lightTriangles[light.triangleOffset + i];
+        const float stored = compiled.triangleAreas[primitive - compiled.constants.quadCount];
+        EXPECT_NEAR(stored * chance / areas[i], 1, 0x1p-23);
+    }
+    EXPECT_EQ(compiled.distributions[light.distribution + areas.size()].x, 0u);
+}
+
 TEST(CompiledLights, MeshTrianglesAreListedByArea) {
     // Two mesh lights whose triangles the BVH may interleave.
     SceneDescription description = scene();
@@ -156,27 +174,26 @@ TEST(CompiledLights, MeshTrianglesAreListedByArea) {
     const CompiledScene compiled = compileScene(description);
     const shared::SceneConstants& constants = compiled.constants;
     ASSERT_EQ(constants.lightCount, 2u);
-    ASSERT_EQ(compiled.lightTriangleCdf.size(), 8u);
+    ASSERT_EQ(compiled.distributions.size(), 10u);
+    ASSERT_EQ(compiled.triangleAreas.size(), constants.triangleCount);
     ASSERT_EQ(compiled.lightTriangles.size(), 8u);
     for (unsigned l = 0; l < 2; ++l) {
         const shared::Light& light = constants.lights[l];
         EXPECT_EQ(light.type, shared::kLightMesh);
-        EXPECT_EQ(light.cdfOffset, 4 * l);
+        EXPECT_EQ(light.triangleOffset, 4 * l);
+        EXPECT_EQ(light.distribution, 5 * l);
         EXPECT_EQ(light.triangleCount, 4u);
-        EXPECT_EQ(light.primitive, compiled.lightTriangles[light.cdfOffset]);
-        double running = 0.0;
+        EXPECT_EQ(light.primitive, compiled.lightTriangles[light.triangleOffset]);
+        std::vector<double> areas;
         for (unsigned i = 0; i < 4; ++i) {
-            const std::uint32_t primitive = compiled.lightTriangles[light.cdfOffset + i];
+            const std::uint32_t primitive = compiled.lightTriangles[light.triangleOffset + i];
             ASSERT_GE(primitive, constants.quadCount);
             const glm::vec4* t = &compiled.triangles[3 * (primitive - constants.quadCount)];
             EXPECT_EQ(std::bit_cast<std::uint32_t>(t[0].w), l == 0 ? 0u : 2u) << "a triangle of another shape";
-            running +=
-                0.5 * glm::length(glm::cross(glm::dvec3(t[1]) - glm::dvec3(t[0]), glm::dvec3(t[2]) - glm::dvec3(t[0])));
-            // One rounding of the area, one of the entry.
-            EXPECT_NEAR(compiled.lightTriangleCdf[light.cdfOffset + i], running / light.area, 2 * 0x1p-24);
+            areas.push_back(0.5 * glm::length(glm::cross(glm::dvec3(t[1]) - glm::dvec3(t[0]),
+                                                         glm::dvec3(t[2]) - glm::dvec3(t[0]))));
         }
-        EXPECT_EQ(compiled.lightTriangleCdf[light.cdfOffset + 3], 1.0f);
-        EXPECT_NEAR(light.area, running, running * 0x1p-23);
+        expectChosenByArea(compiled, light, areas);
     }
 }
 

@@ -103,19 +103,34 @@ TEST(SharedLayout, BoxIsTheSameInBothLanguages) {
 
 TEST(SharedLayout, MediumIsTheSameInBothLanguages) {
     using Type = shared::Medium;
-    expectLayout("Medium", sizeof(Type),
-                 {MEMBER(gridFromWorld), MEMBER(sigmaRatio), MEMBER(sigmaMax), MEMBER(albedo), MEMBER(g),
-                  MEMBER(resolution), MEMBER(voxelOffset), MEMBER(cells), MEMBER(cellOffset), MEMBER(albedoFromWorld),
-                  MEMBER(albedoResolution), MEMBER(albedoOffset), MEMBER(phase), MEMBER(flags), MEMBER(g2),
-                  MEMBER(lobeWeight), MEMBER(phaseOffset), MEMBER(phaseCount), MEMBER(cellLevel)});
+    expectLayout("Medium", sizeof(Type), {MEMBER(gridFromWorld),
+                                          MEMBER(sigmaRatio),
+                                          MEMBER(sigmaMax),
+                                          MEMBER(albedo),
+                                          MEMBER(g),
+                                          MEMBER(resolution),
+                                          MEMBER(voxelOffset),
+                                          MEMBER(cells),
+                                          MEMBER(cellOffset),
+                                          MEMBER(albedoFromWorld),
+                                          MEMBER(albedoResolution),
+                                          MEMBER(albedoOffset),
+                                          MEMBER(phase),
+                                          MEMBER(flags),
+                                          MEMBER(g2),
+                                          MEMBER(lobeWeight),
+                                          MEMBER(phaseOffset),
+                                          MEMBER(phaseCount),
+                                          MEMBER(cellLevel),
+                                          MEMBER(phaseDistribution)});
 }
 
 TEST(SharedLayout, LightIsTheSameInBothLanguages) {
     using Type = shared::Light;
-    expectLayout(
-        "Light", sizeof(Type),
-        {MEMBER(emission), MEMBER(type), MEMBER(vector), MEMBER(primitive), MEMBER(selection), MEMBER(cumulative),
-         MEMBER(area), MEMBER(triangleCount), MEMBER(cdfOffset), MEMBER(texture), MEMBER(flags)});
+    expectLayout("Light", sizeof(Type),
+                 {MEMBER(emission), MEMBER(type), MEMBER(vector), MEMBER(primitive), MEMBER(selection),
+                  MEMBER(cumulative), MEMBER(reciprocal), MEMBER(triangleCount), MEMBER(triangleOffset),
+                  MEMBER(texture), MEMBER(flags), MEMBER(distribution)});
 }
 
 TEST(SharedLayout, TextureIsTheSameInBothLanguages) {
@@ -128,15 +143,14 @@ TEST(SharedLayout, TextureIsTheSameInBothLanguages) {
 TEST(SharedLayout, EnvironmentMapIsTheSameInBothLanguages) {
     using Type = shared::EnvironmentMap;
     expectLayout("EnvironmentMap", sizeof(Type),
-                 {MEMBER(localX), MEMBER(width), MEMBER(localY), MEMBER(height), MEMBER(localZ)});
+                 {MEMBER(localX), MEMBER(width), MEMBER(localY), MEMBER(height), MEMBER(localZ), MEMBER(distribution)});
 }
 
 TEST(SharedLayout, SkyIsTheSameInBothLanguages) {
     using Type = shared::Sky;
-    expectLayout(
-        "Sky", sizeof(Type),
-        {MEMBER(axis), MEMBER(offset), MEMBER(bottom), MEMBER(width), MEMBER(top), MEMBER(power), MEMBER(starRadiance),
-         MEMBER(starCells), MEMBER(starSelection), MEMBER(starCount), MEMBER(bandCount)});
+    expectLayout("Sky", sizeof(Type),
+                 {MEMBER(axis), MEMBER(offset), MEMBER(bottom), MEMBER(width), MEMBER(top), MEMBER(power),
+                  MEMBER(starRadiance), MEMBER(starCells), MEMBER(starCount), MEMBER(bandCount), MEMBER(distribution)});
 }
 
 TEST(SharedLayout, CloudFieldIsTheSameInBothLanguages) {

@@ -56,10 +56,11 @@ struct Medium {
     Vec3<Real> sigmaRatio;
     Real sigmaMax;
     Vec3<Real> albedo;
-    std::uint32_t phase;                ///< shared::kPhase*
-    Real g, g2, lobeWeight;             ///< see shared::Medium
-    std::uint32_t phaseCount;           ///< intervals of phaseTable
-    const float* phaseTable = nullptr;  ///< null unless tabulated
+    std::uint32_t phase;                            ///< shared::kPhase*
+    Real g, g2, lobeWeight;                         ///< see shared::Medium
+    std::uint32_t phaseCount;                       ///< intervals of phaseTable
+    const float* phaseTable = nullptr;              ///< null unless tabulated
+    const glm::uvec2* phaseDistribution = nullptr;  ///< of its intervals
     glm::ivec3 resolution, cells, albedoResolution;
     std::uint32_t cellLevel = 0;
     const float* density = nullptr;             ///< first voxel (dense), or the whole brick pool
@@ -73,8 +74,8 @@ struct Medium {
 template <typename Real>
 struct Light {
     Vec3<Real> emission, vector;
-    std::uint32_t type, primitive, triangleCount, cdfOffset;
-    Real selection, cumulative, area;
+    std::uint32_t type, primitive, triangleCount, triangleOffset, distribution;
+    Real selection, cumulative;
     bool isTwoSided;
     std::uint32_t texture = kNone;
 };
@@ -135,7 +136,10 @@ Medium<Real> viewMedium(const CompiledScene& scene, const shared::Medium& m) {
     v.g2 = m.g2;
     v.lobeWeight = m.lobeWeight;
     v.phaseCount = m.phaseCount;
-    if (m.phase == shared::kPhaseTabulated) v.phaseTable = scene.phaseTable.data() + m.phaseOffset;
+    if (m.phase == shared::kPhaseTabulated) {
+        v.phaseTable = scene.phaseTable.data() + m.phaseOffset;
+        v.phaseDistribution = scene.distributions.data() + m.phaseDistribution;
+    }
     v.resolution = m.resolution;
     v.cells = m.cells;
     v.cellLevel = m.cellLevel;
@@ -176,8 +180,8 @@ SceneView<Real>::SceneView(const CompiledScene& scene) : source(scene), constant
     for (std::uint32_t i = 0; i < c.mediumCount; ++i) media.push_back(viewMedium<Real>(scene, c.media[i]));
     for (std::uint32_t i = 0; i < c.lightCount; ++i) {
         const shared::Light& l = c.lights[i];
-        lights.push_back({l.emission, l.vector, l.type, l.primitive, l.triangleCount, l.cdfOffset, Real(l.selection),
-                          Real(l.cumulative), Real(l.area), (l.flags & shared::kLightTwoSided) != 0, l.texture});
+        lights.push_back({l.emission, l.vector, l.type, l.primitive, l.triangleCount, l.triangleOffset, l.distribution,
+                          Real(l.selection), Real(l.cumulative), (l.flags & shared::kLightTwoSided) != 0, l.texture});
     }
 }
 

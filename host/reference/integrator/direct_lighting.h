@@ -18,7 +18,7 @@ struct Vertex {
     std::uint32_t primitive = kNone;
     std::uint32_t inside = kNone;
     std::uint32_t index = 0;   ///< scatterings so far, this one included
-    std::uint32_t choice = 0;  ///< random word: lobe or interval of the medium's phase function
+    std::uint32_t choice = 0;  ///< random word: lobe of a dual phase function, digits for a tabulated one
     Real strength = 1;         ///< largest channel of the reflectance; 1 in a medium
 };
 
@@ -28,10 +28,11 @@ Real evalScatterer(const Vertex<Real>& vertex, const Vec3<Real>& wi) {
     return vertex.medium ? evalPhase(*vertex.medium, vertex.wo, wi) : evalDiffuse(vertex.surface.shadingNormal, wi);
 }
 
+/// @param words  x and y of a scatter draw.
 template <typename Real>
-DirectionSample<Real> sampleScatterer(const Vertex<Real>& vertex, const Vec2<Real>& u) {
-    return vertex.medium ? samplePhase(*vertex.medium, vertex.wo, u, vertex.choice)
-                         : sampleDiffuse(vertex.surface.shadingNormal, u);
+DirectionSample<Real> sampleScatterer(const Vertex<Real>& vertex, const glm::uvec2& words) {
+    if (vertex.medium) return samplePhase(*vertex.medium, vertex.wo, words, vertex.choice);
+    return sampleDiffuse(vertex.surface.shadingNormal, {toUniform<Real>(words.x), toUniform<Real>(words.y)});
 }
 
 /// Ray that leaves a vertex; off triangles by their rounding, to the side it goes to (H41).
@@ -89,9 +90,7 @@ Vec3<Real> estimateTransmittance(const PathContext<Real, Trace>& path, Ray<Real>
 template <typename Real, typename Trace>
 Vec3<Real> estimateDirect(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex) {
     const glm::uvec4 words = drawStratified(path.stream, path.quality.sobol, vertex.index, shared::kDrawLight);
-    const Vec3<Real> u{toUniform<Real>(words.z), toUniform<Real>(words.x), toUniform<Real>(words.y)};
-    const glm::uvec4 place = drawStratified(path.stream, path.quality.sobol, vertex.index, shared::kDrawEnvironment);
-    const auto light = sampleLight(path.scene, vertex.position, u, place);
+    const auto light = sampleLight(path.scene, vertex.position, glm::uvec3(words));
     if (!light) return Vec3<Real>(0);
     const Real scattering = evalScatterer(vertex, light->direction);
     const shared::SceneConstants& constants = path.scene.constants;

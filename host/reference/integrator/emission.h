@@ -30,9 +30,9 @@ void addRadiance(const SceneView<Real>& scene, std::uint32_t scatterings, const 
 
 /// Adds emission met at the end of a flight, weighted against light sampling at its start.
 template <typename Real>
-void addEmission(const SceneView<Real>& scene, const Light<Real>& light, const Vec3<Real>& emission, Real distance,
-                 Real cosine, PathState<Real>& state) {
-    const Real pdf = lightPdf(scene, light, state.ray.origin, state.ray.direction, distance, cosine);
+void addEmission(const SceneView<Real>& scene, const Light<Real>& light, std::uint32_t primitive,
+                 const Vec3<Real>& emission, Real distance, Real cosine, PathState<Real>& state) {
+    const Real pdf = lightPdf(scene, light, primitive, state.ray.origin, state.ray.direction, distance, cosine);
     const Real mis = emissionWeight(state.lastPdf, pdf * Real(scene.constants.emitterSamples));
     const Vec3<Real> gain = state.throughput.beta * emission * (mis / state.throughput.meanR());
     addRadiance(scene, state.scatterings, gain, state);
@@ -48,7 +48,7 @@ void addEnvironment(const SceneView<Real>& scene, PathState<Real>& state) {
     if (light.type == shared::kLightEnvironmentMap) radiance = environmentAt(scene, direction).radiance;
     if (light.type == shared::kLightSky)
         radiance = skyRadiance(scene, SkyPoint<Real>{direction, findStar(scene, direction)});
-    addEmission(scene, light, radiance, kInfinity<Real>, Real(1), state);
+    addEmission(scene, light, kNone, radiance, kInfinity<Real>, Real(1), state);
 }
 
 }  // namespace parhelion::reference

@@ -37,8 +37,7 @@ bool scatter(const PathContext<Real, Trace>& path, const Vertex<Real>& vertex, c
     }
     const Vec3<Real> gain = throughput.beta * estimateDirect(path, vertex) / throughput.meanR();
     addRadiance(path.scene, vertex.index, gain, state);
-    const Vec2<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y)};
-    const DirectionSample<Real> next = sampleScatterer(vertex, u);
+    const DirectionSample<Real> next = sampleScatterer(vertex, glm::uvec2(words));
     state.ray = spawnRay(vertex, next.direction);
     state.lastPdf = next.pdf * Real(path.scene.constants.scatterSamples);
     state.residual = {exponential<Real>(words.z, spareBits(words.x, words.y, words.w))};
@@ -63,7 +62,8 @@ bool surfaceVertex(const PathContext<Real, Trace>& path, const Hit<Real>& hit, V
     if (shape.light != kNone) {
         const Light<Real>& light = scene.lights[shape.light];
         const Real cosine = lightCosine(light, surface.geometricNormal, surface.shadingNormal, vertex.wo);
-        if (cosine > 0) addEmission(scene, light, emissionAt(scene, light, surface.uv), hit.t, cosine, state);
+        const Vec3<Real> emission = emissionAt(scene, light, surface.uv);
+        if (cosine > 0) addEmission(scene, light, hit.primitive, emission, hit.t, cosine, state);
     }
     // Mitsuba's rule: the shading normal alone says which side is seen.
     if (!(glm::dot(surface.shadingNormal, vertex.wo) > 0)) {

@@ -6,6 +6,7 @@
 #include "reference/geometry/intersection.h"
 #include "reference/light/light_sample.h"
 #include "reference/sampling/distribution.h"
+#include "reference/sampling/sampler.h"
 #include "reference/sampling/warp.h"
 #include "reference/surface/texture.h"
 
@@ -70,17 +71,24 @@ std::optional<LightSample<Real>> sampleArea(const SceneView<Real>& scene, const 
     return LightSample<Real>{direction, distance, primitive, emissionAt(scene, light, uv) / pdf, pdf, false};
 }
 
-/// @param selector  uniform, what is left of the number that chose the light.
+/// Inverse of the density, per unit of area, with which sampleMeshLight finds the points of a triangle.
+template <typename Real>
+Real meshArea(const SceneView<Real>& scene, std::uint32_t primitive) {
+    return scene.source.triangleAreas[primitive - scene.firstTriangle];
+}
+
+/// @param words  x, y and z of a light draw, what chose the light taken out.
 template <typename Real>
 std::optional<LightSample<Real>> sampleMeshLight(const SceneView<Real>& scene, const Light<Real>& light,
-                                                 const Vec3<Real>& position, Real selector, const Vec2<Real>& u) {
-    const std::span<const float> cdf(&scene.source.lightTriangleCdf[light.cdfOffset], light.triangleCount);
-    const std::uint32_t primitive = scene.source.lightTriangles[light.cdfOffset + firstAbove(cdf, selector)];
+                                                 const Vec3<Real>& position, const glm::uvec3& words) {
+    const auto table = std::span(scene.source.distributions).subspan(light.distribution, light.triangleCount + 1);
+    const Choice<Real> choice = invertDistribution(table, words.x, fillDigits<Real>(words.z).x);
+    const std::uint32_t primitive = scene.source.lightTriangles[light.triangleOffset + choice.entry];
     const std::uint32_t triangle = primitive - scene.firstTriangle;
-    const Vec3<Real> b = uniformTriangle(u);
+    const Vec3<Real> b = uniformTriangle(Vec2<Real>{choice.offset, toUniform<Real>(words.y)});
     const Surface<Real> surface = triangleSurface(scene, triangle, Vec2<Real>(b.y, b.z));
     return sampleArea(scene, light, position, surface.position, surface.uv, surface.geometricNormal,
-                      surface.shadingNormal, light.area, primitive);
+                      surface.shadingNormal, meshArea(scene, primitive), primitive);
 }
 
 }  // namespace parhelion::reference

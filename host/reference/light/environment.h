@@ -56,24 +56,25 @@ struct EnvironmentSample {
     Real pdf;
 };
 
+/// @param words  x, y and z of a light draw.
 template <typename Real>
-EnvironmentSample<Real> sampleEnvironment(const SceneView<Real>& scene, const glm::uvec4& words) {
+EnvironmentSample<Real> sampleEnvironment(const SceneView<Real>& scene, const glm::uvec3& words) {
     const shared::EnvironmentMap& map = scene.constants.environmentMap;
-    const std::span<const glm::uvec2> table(scene.source.aliasTable);
-    const std::uint32_t rows = map.height - 1;
-    const std::uint32_t row = sampleAlias(table.first(rows), words.x);
-    const std::size_t first = std::size_t(row) * map.width;
-    const std::uint32_t column = sampleAlias(table.subspan(rows + first, map.width), words.y);
+    const auto tables = std::span(scene.source.distributions).subspan(map.distribution);
+    const Vec2<Real> fill = fillDigits<Real>(words.z);
+    const auto [row, down, up] = invertDistribution(tables.first(map.height), words.x, fill.x);
+    const auto cells = tables.subspan(map.height + std::size_t(row) * (map.width + 1), map.width + 1);
+    const auto [column, along, _] = invertDistribution(cells, words.y, fill.y);
     const glm::vec2& edge = scene.source.environmentRows[row];
-    const Real fromPole = Real(edge.x) + toUniform<Real>(words.z) * Real(edge.y);
     const bool isNorth = row < map.height / 2;
+    const Real fromPole = Real(edge.x) + (isNorth ? down : up) * Real(edge.y);
     const Real cosine = isNorth ? 1 - fromPole : fromPole - 1;
     const Real sine = std::sqrt(fromPole * (2 - fromPole));
-    const Real turn = (Real(column) + Real(0.5) + toUniform<Real>(words.w)) / Real(map.width);
+    const Real turn = (Real(column) + Real(0.5) + along) / Real(map.width);
     const Vec2<Real> sc = sinCosTurn(turn - std::floor(turn));
     const Vec3<Real> direction =
         sine * sc.x * Vec3<Real>(map.localX) + cosine * Vec3<Real>(map.localY) - sine * sc.y * Vec3<Real>(map.localZ);
-    return {glm::normalize(direction), Real(scene.source.environmentTexels[first + column].w)};
+    return {glm::normalize(direction), Real(scene.source.environmentTexels[std::size_t(row) * map.width + column].w)};
 }
 
 }  // namespace parhelion::reference

@@ -30,16 +30,20 @@ std::optional<LightSample<Real>> sampleDeltaLight(const Light<Real>& light, cons
 
 /// Chooses one light and a point of it.
 ///
-/// @param u      which light; the light point.
-/// @param words  the environment draw: the point of a map or a sky; others do without.
+/// @param words  x, y and z of a light draw: (x, y) is one point over all lights and what is on each; z has digits to
+///               spare.
 /// @return nothing when no light is sampled, or the one chosen sends nothing this way.
 template <typename Real>
 std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const Vec3<Real>& position,
-                                             const Vec3<Real>& u, const glm::uvec4& words = glm::uvec4(0)) {
-    const std::size_t chosen = selectLight(scene, u.x);
+                                             glm::uvec3 words) {
+    const std::size_t chosen = selectLight(scene, toUniform<Real>(words.x));
     if (chosen == scene.lights.size()) return std::nullopt;
     const Light<Real>& light = scene.lights[chosen];
-    const Vec2<Real> uv{u.y, u.z};
+    const auto wordsOf = [](Real probability) { return std::uint32_t(std::uint64_t(double(probability) * 0x1p32)); };
+    const std::uint32_t below = chosen == 0 ? 0 : wordsOf(scene.lights[chosen - 1].cumulative);
+    const glm::uvec2 zoomed = zoomWord({words.x, words.z}, below, wordsOf(light.selection));
+    words = {zoomed.x, words.y, zoomed.y};
+    const Vec2<Real> uv{toUniform<Real>(words.x), toUniform<Real>(words.y)};
     switch (light.type) {
         case shared::kLightQuad: {
             const Quad<Real>& quad = scene.quads[light.primitive];
@@ -48,16 +52,12 @@ std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const
         }
         case shared::kLightSphere:
             return sampleSphereLight(scene, light, position, uv);
-        case shared::kLightMesh: {
-            constexpr Real kBelowOne = 1 - std::numeric_limits<Real>::epsilon() / 2;
-            const Real before = chosen == 0 ? Real(0) : scene.lights[chosen - 1].cumulative;
-            const Real selector = std::min((u.x - before) / light.selection, kBelowOne);
-            return sampleMeshLight(scene, light, position, selector, uv);
-        }
+        case shared::kLightMesh:
+            return sampleMeshLight(scene, light, position, words);
         case shared::kLightEnvironment:
         case shared::kLightEnvironmentMap:
         case shared::kLightSky:
-            return sampleSurrounding(scene, light, uv, words);
+            return sampleSurrounding(scene, light, words);
         default:
             return sampleDeltaLight(light, position);
     }
@@ -65,8 +65,10 @@ std::optional<LightSample<Real>> sampleLight(const SceneView<Real>& scene, const
 
 /// Density, per steradian and selection included, with which sampleLight at `origin` chooses the light met at
 /// `distance` along `direction` under `cosine` (see lightCosine). Infinite distance: the environment.
+///
+/// @param primitive  which one of the light's was met.
 template <typename Real>
-Real lightPdf(const SceneView<Real>& scene, const Light<Real>& light, const Vec3<Real>& origin,
+Real lightPdf(const SceneView<Real>& scene, const Light<Real>& light, std::uint32_t primitive, const Vec3<Real>& origin,
               const Vec3<Real>& direction, Real distance, Real cosine) {
     if (light.selection == 0) return 0;
     if (light.type == shared::kLightEnvironment) return light.selection / (4 * kPi<Real>);
@@ -77,7 +79,7 @@ Real lightPdf(const SceneView<Real>& scene, const Light<Real>& light, const Vec3
         const auto cone = oneMinusCosCone(scene.spheres[light.primitive - scene.firstSphere], origin);
         return cone ? light.selection / (2 * kPi<Real> * *cone) : Real(0);
     }
-    const Real area = light.type == shared::kLightQuad ? scene.quads[light.primitive].area : light.area;
+    const Real area = light.type == shared::kLightQuad ? scene.quads[light.primitive].area : meshArea(scene, primitive);
     return light.selection * distance * distance / (area * cosine);
 }
 

@@ -79,21 +79,25 @@ Real skyPdf(const SceneView<Real>& scene, const SkyPoint<Real>& point) {
     return point.star == kNone ? gradient : gradient + Real(scene.source.stars[2 * point.star + 1].y);
 }
 
-/// A point of the sky from the words of an environment draw.
+/// A point of the sky.
+///
+/// @param words  x, y and z of a light draw.
 template <typename Real>
-SkyPoint<Real> sampleSky(const SceneView<Real>& scene, const glm::uvec4& words) {
+SkyPoint<Real> sampleSky(const SceneView<Real>& scene, const glm::uvec3& words) {
     const shared::Sky& sky = scene.constants.sky;
-    const std::span<const glm::uvec2> table(scene.source.aliasTable);
-    const Vec2<Real> u{toUniform<Real>(words.z), toUniform<Real>(words.w)};
-    if (toUniform<Real>(words.x) < Real(sky.starSelection)) {
-        const std::uint32_t star = sampleAlias(table.subspan(sky.bandCount), words.y);
+    const auto table =
+        std::span(scene.source.distributions).subspan(sky.distribution, sky.bandCount + sky.starCount + 1);
+    const auto [entry, offset, left] = invertDistribution(table, words.x, fillDigits<Real>(words.z).x);
+    const Vec2<Real> u{offset, toUniform<Real>(words.y)};
+    if (entry >= sky.bandCount) {
+        const std::uint32_t star = entry - sky.bandCount;
         const glm::vec4& disc = scene.source.stars[2 * star];
         const Frame<Real> frame = frameFromNormal(glm::normalize(Vec3<Real>(disc)));
         return {glm::normalize(toWorld(frame, uniformCone(u, Real(disc.w)))), star};
     }
-    const std::uint32_t band = sampleAlias(table.first(sky.bandCount), words.y);
-    const Real cosine = 2 * (Real(band) + u.x) / Real(sky.bandCount) - 1;
-    const Real sine = std::sqrt(std::max(Real(0), 1 - cosine * cosine));
+    const Real onePlus = 2 * (Real(entry) + offset) / Real(sky.bandCount);
+    const Real oneMinus = 2 * (Real(sky.bandCount - 1 - entry) + left) / Real(sky.bandCount);
+    const Real cosine = oneMinus < 1 ? 1 - oneMinus : onePlus - 1, sine = std::sqrt(onePlus * oneMinus);
     const Vec2<Real> turn = sinCosTurn(u.y);
     const Frame<Real> frame = frameFromNormal(glm::normalize(Vec3<Real>(sky.axis)));
     const Vec3<Real> direction = glm::normalize(toWorld(frame, Vec3<Real>{sine * turn.y, sine * turn.x, cosine}));

@@ -11,12 +11,12 @@ namespace parhelion::reference {
 
 /// A direction towards a light that surrounds the scene; nothing where it has no density.
 ///
-/// @param u      the direction, of a constant one.
-/// @param words  the environment draw: the point of a map or a sky.
+/// @param words  x, y and z of a light draw.
 template <typename Real>
 std::optional<LightSample<Real>> sampleSurrounding(const SceneView<Real>& scene, const Light<Real>& light,
-                                                   const Vec2<Real>& u, const glm::uvec4& words) {
-    Vec3<Real> direction = uniformSphere(u), radiance = light.emission;
+                                                   const glm::uvec3& words) {
+    Vec3<Real> direction = uniformSphere(Vec2<Real>{toUniform<Real>(words.x), toUniform<Real>(words.y)});
+    Vec3<Real> radiance = light.emission;
     Real pdf = 1 / (4 * kPi<Real>);
     if (light.type == shared::kLightEnvironmentMap) {
         const EnvironmentSample<Real> point = sampleEnvironment(scene, words);

@@ -103,6 +103,13 @@ Real toUniform(std::uint32_t word) {
     return Real(word >> 8) * Real(0x1p-24);
 }
 
+/// What the third word of a light draw lends the first two: a uniform number of 16 digits, amid its step, for each.
+template <typename Real>
+Vec2<Real> fillDigits(std::uint32_t word) {
+    const auto digits = [](std::uint32_t bits) { return Real(2 * bits + 1) * Real(0x1p-17); };
+    return {digits(word / 65536u), digits(word % 65536u)};
+}
+
 /// The 24 bits of three words that toUniform leaves.
 inline std::uint32_t spareBits(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     return (x & 255u) << 16 | (y & 255u) << 8 | (z & 255u);

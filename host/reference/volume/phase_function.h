@@ -2,6 +2,7 @@
 
 #include "reference/core/frame.h"
 #include "reference/core/scene.h"
+#include "reference/sampling/distribution.h"
 #include "reference/sampling/sampler.h"
 #include "reference/sampling/warp.h"
 #include "reference/surface/bsdf.h"
@@ -74,24 +75,15 @@ Real evalTabulated(const float* values, std::uint32_t count, const Vec3<Real>& w
     return first + t * (second - first);
 }
 
-/// The interval of a phase table that a random word chooses.
-///
-/// @param table  count + 1 densities, count thresholds, count aliases.
-inline std::uint32_t chooseInterval(const float* table, std::uint32_t count, std::uint32_t word) {
-    const std::uint64_t scaled = std::uint64_t(word) * count;
-    const auto bucket = std::uint32_t(scaled >> 32), rest = std::uint32_t(scaled) >> 8;
-    const float *thresholds = table + count + 1, *aliases = thresholds + count;
-    return float(rest) < thresholds[bucket] ? bucket : std::uint32_t(aliases[bucket]);
-}
-
 /// Inversion within one interval, where the density goes linearly from a to b.
 template <typename Real>
-Deflection<Real> sampleTabulated(const float* values, std::uint32_t count, std::uint32_t interval, Real u) {
+Deflection<Real> sampleTabulated(const float* values, std::uint32_t count, const Choice<Real>& choice) {
+    const auto [interval, u, rest] = choice;
     const Real low = values[interval], high = values[interval + 1], larger = std::max(low, high);
     const Real a = safeDivide(low, larger), b = safeDivide(high, larger);
-    const Real r = std::sqrt(a * a * (1 - u) + b * b * u);
+    const Real r = std::sqrt(a * a * rest + b * b * u);
     const Real t = std::min(safeDivide(u * (a + b), a + r), Real(1));
-    const Real s = std::min(safeDivide((1 - u) * (a + b), b + r), Real(1));
+    const Real s = std::min(safeDivide(rest * (a + b), b + r), Real(1));
     const Real onePlus = 2 * (Real(interval) + t) / Real(count);
     const Real oneMinus = 2 * (Real(count - 1 - interval) + s) / Real(count);
     return {oneMinus < 1 ? 1 - oneMinus : onePlus - 1, std::sqrt(onePlus * oneMinus), low * s + high * t};
@@ -130,18 +122,21 @@ Deflection<Real> sampleLobe(const Medium<Real>& medium, Real u, std::uint32_t ch
     return deflection;
 }
 
-/// @param choice  random word that picks the lobe or the interval, where there are several.
+/// @param words   x and y of a scatter draw.
+/// @param choice  random word that picks the lobe of a dual function, and fills up what x says of a tabulated one.
 template <typename Real>
-DirectionSample<Real> samplePhase(const Medium<Real>& medium, const Vec3<Real>& wo, const Vec2<Real>& u,
+DirectionSample<Real> samplePhase(const Medium<Real>& medium, const Vec3<Real>& wo, const glm::uvec2& words,
                                   std::uint32_t choice) {
+    const Vec2<Real> u{toUniform<Real>(words.x), toUniform<Real>(words.y)};
     if (medium.phase == shared::kPhaseIsotropic) return {uniformSphere(u), 1 / (4 * kPi<Real>)};
     Deflection<Real> deflection{};
     if (medium.phase == shared::kPhaseHenyeyGreenstein) deflection = sampleHenyeyGreenstein(medium.g, u.x);
     if (medium.phase == shared::kPhaseDualHenyeyGreenstein) deflection = sampleLobe(medium, u.x, choice);
     if (medium.phase == shared::kPhaseRayleigh) deflection = sampleRayleigh(u.x);
     if (medium.phase == shared::kPhaseTabulated) {
-        const std::uint32_t interval = chooseInterval(medium.phaseTable, medium.phaseCount, choice);
-        deflection = sampleTabulated(medium.phaseTable, medium.phaseCount, interval, u.x);
+        const std::span table(medium.phaseDistribution, medium.phaseCount + 1);
+        const Choice<Real> interval = invertDistribution(table, words.x, toUniform<Real>(choice));
+        deflection = sampleTabulated(medium.phaseTable, medium.phaseCount, interval);
     }
     const Vec2<Real> turn = sinCosTurn(u.y);
     const Vec3<Real> local{deflection.sinTheta * turn.y, deflection.sinTheta * turn.x, deflection.mu};
