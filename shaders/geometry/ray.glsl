@@ -1,4 +1,4 @@
-// Rays and hits.
+// Rays, hits, and what is there.
 #ifndef GEOMETRY_RAY_GLSL
 #define GEOMETRY_RAY_GLSL
 
@@ -23,6 +23,20 @@ struct Hit {
     vec2 uv;         // triangles: barycentrics of the second and third vertex
     bool exits;      // leaves the convex null shape the ray is inside
     bool near;       // flat primitive that the ray's start lies in within rounding: t says nothing about which side
+};
+
+struct Surface {
+    vec3 position;
+    vec3 geometricNormal;  // unit, front side
+    vec3 shadingNormal;    // unit
+    float offset;          // by which rays leave it along the geometric normal: bound of the position's rounding error
+    uint shape;
+    vec2 uv;               // for textures; 0 where the scene has none
+    vec3 corner;           // quads and triangles: corner + edgeU, corner + edgeV are corners as well
+    vec3 edgeU, edgeV;
+    float slack;           // quads and triangles: how far a ray's start may lie off it; negative: others
+    vec3 edge;             // unit, along the edge that the position is next to; 0: next to none
+    vec3 inward;           // from there to the middle
 };
 
 // A ray from the camera, from a surface or from a medium that has not met anything yet.

@@ -7,20 +7,6 @@
 #include "core/unroll.glsl"
 #include "geometry/ray.glsl"
 
-struct Surface {
-    vec3 position;
-    vec3 geometricNormal;  // unit, front side
-    vec3 shadingNormal;    // unit
-    float offset;          // by which rays leave it along the geometric normal: bound of the position's rounding error
-    uint shape;
-    vec2 uv;               // for textures; 0 where the scene has none
-    vec3 corner;           // quads and triangles: corner + edgeU, corner + edgeV are corners as well
-    vec3 edgeU, edgeV;
-    float slack;           // quads and triangles: how far a ray's start may lie off it; negative: others
-    vec3 edge;             // unit, along the edge that the position is next to; 0: next to none
-    vec3 inward;           // from there to the middle
-};
-
 // What counts as next to an edge, as a share of the primitive, and as one of its longest edge (slivers).
 const float kNextToEdge = 0.0009765625;
 const float kEdgeWidth = 6.103515625e-5;

@@ -5,6 +5,7 @@
 
 #include "geometry/flat.glsl"
 #include "geometry/ray.glsl"
+#include "integrator/state_words.glsl"
 #include "volume/tracking.glsl"
 
 struct Path {
@@ -29,41 +30,10 @@ struct Path {
     uint stalledTurns;     // since it last left, or moved along, a ray
 };
 
-layout(set = 0, binding = 13, scalar) buffer PathStates { uint pathStates[]; };
 layout(set = 0, binding = 26, scalar) buffer LayerBlock { LayerPixel layers[]; };
 uint firstLayer;  // of the lane's pixel
 
 // Shader only: the reference never suspends a path.
-void storeWord(inout uint at, uint stride, uint word) {
-    pathStates[at] = word;
-    at += stride;
-}
-
-// Shader only: as above.
-void storeVector(inout uint at, uint stride, vec3 v) {
-    uvec3 words = floatBitsToUint(v);
-    storeWord(at, stride, words.x);
-    storeWord(at, stride, words.y);
-    storeWord(at, stride, words.z);
-}
-
-// Shader only: as above.
-uint loadWord(inout uint at, uint stride) {
-    uint word = pathStates[at];
-    at += stride;
-    return word;
-}
-
-// Shader only: as above.
-float loadFloat(inout uint at, uint stride) { return uintBitsToFloat(loadWord(at, stride)); }
-
-// Shader only: as above.
-vec3 loadVector(inout uint at, uint stride) {
-    float x = loadFloat(at, stride), y = loadFloat(at, stride), z = loadFloat(at, stride);
-    return vec3(x, y, z);
-}
-
-// Shader only: as above.
 void saveRay(inout uint at, uint stride, Ray ray, Hit hit) {
     storeVector(at, stride, ray.origin);
     storeVector(at, stride, ray.direction);
@@ -78,6 +48,26 @@ void saveRay(inout uint at, uint stride, Ray ray, Hit hit) {
     storeWord(at, stride, hit.primitive);
     storeWord(at, stride, floatBitsToUint(hit.uv.x));
     storeWord(at, stride, floatBitsToUint(hit.uv.y));
+}
+
+// Shader only: as above. All but the hit's two flags.
+void loadRay(inout uint at, uint stride, inout Ray ray, inout Hit hit) {
+    ray.origin = loadVector(at, stride);
+    ray.direction = loadVector(at, stride);
+    vec3 distances = loadVector(at, stride);
+    ray.tMin = distances.x;
+    ray.tMax = distances.y;
+    ray.last = loadWord(at, stride);
+    ray.target = loadWord(at, stride);
+    ray.inside = loadWord(at, stride);
+    ray.passed = loadWord(at, stride);
+    ray.idle = loadWord(at, stride);
+    ray.idleT = loadFloat(at, stride);
+    ray.slack = loadFloat(at, stride);
+    hit.t = distances.z;
+    hit.primitive = loadWord(at, stride);
+    hit.uv.x = loadFloat(at, stride);
+    hit.uv.y = loadFloat(at, stride);
 }
 
 // Shader only: as above.
@@ -116,25 +106,13 @@ void savePath(uint lane, uint stride, Path p) {
 void loadPath(uint lane, uint stride, inout Path p) {
     uint at = lane;
     p.sampleIndex = loadWord(at, stride);
-    p.ray.origin = loadVector(at, stride);
-    p.ray.direction = loadVector(at, stride);
-    vec3 distances = loadVector(at, stride);
-    p.ray.tMin = distances.x;
-    p.ray.tMax = distances.y;
-    p.ray.last = loadWord(at, stride);
-    p.ray.target = loadWord(at, stride);
-    p.ray.inside = loadWord(at, stride);
-    p.ray.passed = loadWord(at, stride);
-    p.ray.idle = loadWord(at, stride);
-    p.ray.idleT = loadFloat(at, stride);
-    p.ray.slack = loadFloat(at, stride);
-    uint primitive = loadWord(at, stride);
-    float u = loadFloat(at, stride), v = loadFloat(at, stride);
+    loadRay(at, stride, p.ray, p.hit);
     vec3 progress = loadVector(at, stride);
     vec3 weight = loadVector(at, stride), ratio = loadVector(at, stride);
     float end = loadFloat(at, stride);
     uint collisions = loadWord(at, stride), cell = loadWord(at, stride), bits = loadWord(at, stride);
-    p.hit = Hit(distances.z, primitive, vec2(u, v), (bits & 8u) != 0u, (bits & 16u) != 0u);
+    p.hit.exits = (bits & 8u) != 0u;
+    p.hit.near = (bits & 16u) != 0u;
     p.segment = Segment(progress.x, end, progress.y, collisions,
                         ivec3(uvec3(cell, cell >> 10u, cell >> 20u) & 1023u), bits & 3u, (bits & 4u) != 0u,
                         bits >> 5u, progress.z, weight, ratio);

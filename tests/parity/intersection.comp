@@ -35,25 +35,5 @@ void probeItem() {
             probeOutput(1u, uintBitsToFloat(uvec4(shape.interior, shape.exterior, shape.light, interiorOf(ray.last))));
             probeOutput(2u, vec4(surrounds(ray.last, ray.inside)));
             break;
-        case 4u:
-            // A ray (x: slack, c.x: what it leaves) that has met `c.y` near, at t = c.z; the surface it left: normal, inward.
-            Ray from = newRay(a.xyz, b.xyz, kInfinity, floatBitsToUint(c.x), kNone, kNone, a.w);
-            Hit near = Hit(c.z, floatBitsToUint(c.y), vec2(1.0 / 3.0), false, true);
-            Surface met = surfaceAt(from, near);
-            probeOutput(0u, vec4(isFlatPrimitive(near.primitive), 0.0, 0.0, 0.0));
-            if (isFlatPrimitive(near.primitive))
-                probeOutput(0u, vec4(1.0, leavesAside(from, near, met, Start(probeInput(3u).xyz, vec3(0.0, 0.0, probeInput(3u).w), probeInput(4u).xyz)), 0.0, 0.0));
-            break;
-        case 5u:
-            // The ray's memory, then a boundary of shape 0 crossed at c.z towards its inside or out.
-            ray.idle = floatBitsToUint(a.x);
-            ray.idleT = a.y;
-            ray.passed = floatBitsToUint(a.z);
-            Hit crossed = Hit(c.z, floatBitsToUint(b.w), vec2(0.0), false, false);
-            ray.direction = vec3(0.0, 0.0, 1.0);
-            crossBoundary(ray, crossed, floatBitsToUint(b.x), floatBitsToUint(b.y), vec3(0.0, 0.0, c.w));
-            probeOutput(0u, vec4(uintBitsToFloat(ray.inside), uintBitsToFloat(ray.idle), ray.idleT, uintBitsToFloat(ray.passed)));
-            probeOutput(1u, vec4(ray.tMin));
-            break;
     }
 }

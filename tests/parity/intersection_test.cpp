@@ -16,7 +16,7 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/intersection.comp";
-enum Function : std::uint32_t { kHit, kBounds, kNormals, kShapes, kAside, kCross };
+enum Function : std::uint32_t { kHit, kBounds, kNormals, kShapes };
 
 /// Walls, an opaque sphere, a null sphere and a null box with media, and a mesh with vertex normals.
 struct MixedScene : test::HandScene {
@@ -267,119 +267,6 @@ TEST_F(IntersectionParity, ShapesAndTheirNestingAgree) {
             EXPECT_TRUE(shapes.equal(view.interiorOf(ids.x) == nullptr, words.w == kNone)) << ids.x;
             EXPECT_TRUE(nesting.equal(outputs[3 * i + 2].x != 0, reference::surrounds(view, ids.x, ids.y))) << ids.x;
         }
-    }
-}
-
-// What a ray leaves aside at its start: faces of all kinds of fold, on quads and triangles, at several scales. Where a
-// decision is within its rounding, either is right: one in 50 of these.
-TEST_F(IntersectionParity, NeighboursLeftAsideAgree) {
-    for (const float scale : {1e-4f, 1.0f, 1e4f}) {
-        test::HandScene built;
-        const std::uint32_t shape = built.addDiffuse(glm::vec3(1));
-        Stress stress(41);
-        const auto fold = [&](int i) { return float(i % 17 - 8) * 0.39f; };
-        for (int i = 0; i < 16; ++i)
-            built.addQuad(glm::vec3(0), glm::vec3(0, 0, 1) * scale,
-                          glm::vec3(std::cos(fold(i)), std::sin(fold(i)), 0) * scale, shape);
-        std::vector<glm::vec3> corners;
-        for (int i = 0; i < 17; ++i)
-            for (const glm::vec3& v :
-                 {glm::vec3(0), glm::vec3(0, 0, 1), glm::vec3(std::cos(fold(i)), std::sin(fold(i)), 0.3f)})
-                corners.push_back(v * scale);
-        built.addTriangles(corners, shape);
-        const reference::SceneView<double> view(built.scene);
-        std::vector<glm::vec4> inputs;
-        for (int i = 0; i < 4'000; ++i) {
-            const std::uint32_t met = stress.word() % 33;
-            const bool isNext = i % 4 != 0;
-            inputs.emplace_back(scale * glm::vec3(0, 1e-7f, 0.4f), 2e-7f * scale);
-            inputs.emplace_back(stress.direction(), 0);
-            inputs.push_back(
-                glm::vec4(glm::uintBitsToFloat(glm::uvec2(100, met)), i % 3 == 0 ? 0.0f : 1e-7f * scale, 0));
-            inputs.emplace_back(0, i % 2 == 0 ? 1 : -1, 0, isNext ? 1 : 0);
-            inputs.emplace_back(scale * glm::vec3(-0.5f, 0, 0.1f), 0);
-        }
-        const auto outputs = test::SceneProbe(built.scene).run(kShader, kAside, inputs, 5, 1);
-        Parity parity("geometry/flat", "isFlatPrimitive leavesAside", 0);
-        std::size_t different = 0, aside = 0;
-        for (std::size_t i = 0; i < outputs.size(); ++i) {
-            reference::Ray<double> ray;
-            ray.origin = inputs[5 * i];
-            ray.direction = inputs[5 * i + 1];
-            ray.start = {glm::dvec3(inputs[5 * i + 3]), glm::dvec3(0, 0, inputs[5 * i + 3].w),
-                         glm::dvec3(inputs[5 * i + 4]), double(inputs[5 * i].w)};
-            reference::Hit<double> hit;
-            hit.primitive = glm::floatBitsToUint(inputs[5 * i + 2].y);
-            hit.t = inputs[5 * i + 2].z;
-            hit.near = true;
-            EXPECT_TRUE(parity.equal(outputs[i].x != 0, reference::isFlatPrimitive(view, hit.primitive))) << i;
-            const bool expected = reference::leavesAside(view, ray, hit, reference::flatNormal(view, hit.primitive));
-            different += expected != (outputs[i].y != 0);
-            aside += expected;
-        }
-        EXPECT_LE(different, outputs.size() / 50) << scale;
-        EXPECT_GT(aside, outputs.size() / 4) << scale;
-        EXPECT_LT(aside, 9 * outputs.size() / 10) << scale;
-    }
-}
-
-// Three shapes, two nested and one beside them, crossed in all ways with all memories.
-TEST_F(IntersectionParity, CrossingsAgreeWhateverCameBefore) {
-    test::HandScene built;
-    const std::uint32_t medium = built.addHomogeneous(1, glm::vec3(1));
-    const std::uint32_t outer = built.addNull(medium), inner = built.addNull(medium, outer),
-                        beside = built.addNull(medium);
-    const std::vector<glm::vec3> facing{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, turned{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}};
-    std::vector<glm::vec3> corners;
-    for (int shape = 0; shape < 3; ++shape)
-        for (const auto& triangle : {facing, turned}) corners.insert(corners.end(), triangle.begin(), triangle.end());
-    built.addTriangles(corners, outer);
-    for (std::uint32_t i = 0; i < 6; ++i)
-        built.scene.triangles[3 * i].w = glm::uintBitsToFloat(i < 2 ? outer : i < 4 ? inner : beside);
-    for (std::size_t i = 0; i < 3; ++i) built.scene.constants.shapes[i] = built.scene.shapes[i];
-    const reference::SceneView<double> view(built.scene);
-    std::vector<glm::vec4> inputs;
-    std::vector<reference::Ray<double>> rays;
-    std::vector<reference::Hit<double>> hits;
-    for (const std::uint32_t inside : {outer, inner, beside, kNone})
-        for (std::uint32_t primitive = 0; primitive < 6; ++primitive)
-            for (const std::uint32_t idle : {0u, 2u, 3u, 4u, 5u, 6u, 7u})
-                for (const float t : {1.0f, 1.00001f, 1.001f}) {
-                    const std::uint32_t shape = primitive / 2;
-                    const auto up = float(reference::flatNormal(view, primitive).z);
-                    inputs.emplace_back(glm::uintBitsToFloat(idle), 1.0f, glm::uintBitsToFloat(3u), 0.5f);
-                    inputs.emplace_back(glm::uintBitsToFloat(glm::uvec3(shape, built.scene.shapes[shape].exterior, 0)),
-                                        glm::uintBitsToFloat(primitive));
-                    inputs.emplace_back(0, glm::uintBitsToFloat(inside), t, up);
-                    inputs.insert(inputs.end(), 2, glm::vec4(0));
-                    reference::Ray<double> ray;
-                    ray.direction = {0, 0, 1};
-                    ray.inside = inside;
-                    ray.tMin = 0.5;
-                    ray.passed = 3;
-                    if (idle > 0) ray.idle = {idle / 2 - 1, idle % 2 == 1, 1.0};
-                    rays.push_back(ray);
-                    reference::Hit<double> hit;
-                    hit.t = t;
-                    hit.primitive = primitive;
-                    hit.shape = shape;
-                    hit.isNull = true;
-                    hits.push_back(hit);
-                }
-    const auto outputs = test::SceneProbe(built.scene).run(kShader, kCross, inputs, 5, 2);
-    Parity parity("geometry/intersection", "crossBoundary passHit", 0);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        reference::crossBoundary(view, hits[i], rays[i]);
-        const reference::Ray<double>& ray = rays[i];
-        const glm::uvec4 words = glm::floatBitsToUint(outputs[2 * i]);
-        EXPECT_TRUE(parity.equal(words.x, ray.inside)) << i;
-        const std::uint32_t idle = ray.idle.shape == kNone ? 0 : 2 * (ray.idle.shape + 1) + ray.idle.entered;
-        EXPECT_TRUE(parity.equal(words.y, idle)) << i;
-        if (idle != 0) {
-            EXPECT_TRUE(parity.near(outputs[2 * i].z, ray.idle.t)) << i;
-        }
-        EXPECT_TRUE(parity.equal(words.w, ray.passed)) << i;
-        EXPECT_TRUE(parity.near(outputs[2 * i + 1].x, ray.tMin)) << i;
     }
 }
 

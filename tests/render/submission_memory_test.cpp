@@ -34,11 +34,10 @@ TEST(SubmissionMemory, IsFlatForASingleLightMediumAndShape) {
 TEST(SubmissionMemory, IsFlatForFeatures) {
     const CompiledScene scene = compileFile(sceneFolder() / "cornell_cloud.xml", kTiny);
     const render::DeviceScene deviceScene(testDevice(), scene);
-    RenderSettings settings = settingsFor(scene, 1);
+    const RenderSettings settings = settingsFor(scene, 1);
     const gpu::Specialisation constants = render::specialise(scene, settings.effects, settings.quality);
     const auto featuresOf = [&](std::uint32_t samples) {
-        settings.featureSamples = samples;
-        render::renderFeatures(testDevice(), scene, deviceScene, settings, constants);
+        render::renderFeatures(testDevice(), scene, deviceScene, settings.seed, samples, constants);
         return memoryOf(::getpid()).executableKiB;
     };
     const long few = featuresOf(2);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/cache.h"
+#include "support/paths.h"
 #include "support/run_program.h"
 #include "support/scene_text.h"
 #include "support/scoped_variable.h"
@@ -24,7 +25,7 @@ protected:
         std::vector<std::string> arguments{"XDG_CACHE_HOME=" + (file_ / "cache").string(),
                                            "HOME=" + file_.string(),
                                            "TMPDIR=" + file_.string(),
-                                           PARHELION_PROGRAM,
+                                           programFile(),
                                            "render",
                                            "scene.xml",
                                            "-o",

@@ -73,7 +73,7 @@ TEST(FirstInterrupt, EndsWithinSecondsHoweverLongAPassIs) {
     for (const std::string backend : {"vulkan", "reference"}) {
         const TemporaryFolder folder;
         folder.write("scene.xml", slowScene().text());
-        ChildProgram program(PARHELION_PROGRAM,
+        ChildProgram program(programFile(),
                              {"render", "scene.xml", "--size", "512x512", "--spp", kEndless, "-o", "out.exr",
                               "--backend", backend, "--feature-spp", "1"},
                              folder.path());
