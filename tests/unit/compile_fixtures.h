@@ -76,7 +76,6 @@ inline ShapeDescription meshCube(const std::string& id, const glm::dvec3& center
     return meshOf(id, std::move(mesh));
 }
 
-
 /// A mesh from the vertices of its triangles, one after the other.
 inline ShapeDescription soup(const std::string& id, const std::vector<glm::vec3>& vertices) {
     ShapeDescription result = shape(ShapeDescription::Type::Mesh, id, glm::dmat4(1.0));
