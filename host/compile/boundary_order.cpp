@@ -11,7 +11,7 @@ using shared::kNone;
 std::vector<bool> findBoundaries(const CompiledScene& scene) {
     std::vector<bool> found(scene.shapes.size(), false);
     const auto add = [&](std::uint32_t shape) {
-        for (; shape != kNone && !found[shape]; shape = scene.shapes[shape].exterior) found[shape] = true;
+        for (; shape < found.size() && !found[shape]; shape = scene.shapes[shape].exterior) found[shape] = true;
     };
     for (std::uint32_t i = 0; i < found.size(); ++i)
         if ((scene.shapes[i].flags & shared::kShapeNull) != 0) add(i);

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "../support/probe.glsl"
-#include "core/scene.glsl"
+#include "shared/scene_types.h"
 #include "geometry/ray.glsl"
 #include "geometry/triangle.glsl"
 

@@ -117,7 +117,8 @@ TEST(Slicing, BeingCutOffIsAShorterRun) {
         EXPECT_FALSE(renderer.step());
         const Film film = renderer.film();
         ASSERT_GT(film.samples, 0u);
-        EXPECT_LT(film.samples * film.pixels.size(), film.counters[shared::kCounterPathsFinished]);
+        // How much is given up is a matter of time: nothing, where all pixels stand alike.
+        EXPECT_LE(film.samples * film.pixels.size(), film.counters[shared::kCounterPathsFinished]);
         EXPECT_TRUE(film.pixelSamples.empty());
         EXPECT_EQ(countDifferentPixels(film, renderVulkan(scene, settingsFor(scene, film.samples))), 0u);
     }

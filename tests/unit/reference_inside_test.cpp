@@ -11,7 +11,7 @@ namespace {
 
 using test::HandScene;
 
-/// The shape the ray is inside of, from its start through every null boundary until it hits something or nothing.
+/// The shape the ray is inside of, from its start through every change of it until it hits something or nothing.
 std::vector<std::uint32_t> insides(const SceneView<float>& scene, Ray<float> ray) {
     std::vector<std::uint32_t> visited{ray.inside};
     for (;;) {
@@ -20,7 +20,8 @@ std::vector<std::uint32_t> insides(const SceneView<float>& scene, Ray<float> ray
         const float before = ray.tMin;
         EXPECT_TRUE(crossBoundary(scene, hit, ray));
         EXPECT_GE(ray.tMin, before);
-        visited.push_back(ray.inside);
+        // Through an edge, both of its triangles are crossed: the second changes nothing.
+        if (ray.inside != visited.back()) visited.push_back(ray.inside);
         if (visited.size() > 100) return visited;
     }
 }

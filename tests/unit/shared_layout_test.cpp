@@ -72,7 +72,7 @@ TEST(SharedLayout, PathArgumentsAreTheSameInBothLanguages) {
     expectLayout("PathArguments", sizeof(Type),
                  {MEMBER(filmSize), MEMBER(cropOffset), MEMBER(cropSize), MEMBER(firstPixel), MEMBER(laneCount),
                   MEMBER(sampleLow), MEMBER(sampleHigh), MEMBER(sampleCount), MEMBER(seed), MEMBER(loopBudget),
-                  MEMBER(restart)});
+                  MEMBER(restart), MEMBER(pauseAt), MEMBER(stallLimit)});
 }
 
 TEST(SharedLayout, ShapeIsTheSameInBothLanguages) {
