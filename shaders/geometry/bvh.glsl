@@ -11,11 +11,11 @@
 // 0 * infinity, which would prune both of the boxes that share the face a ray runs in (H39).
 vec3 finiteInverse(vec3 d) { return mix(1.0 / d, vec3(3.4028234e38), equal(d, vec3(0.0))); }
 
-// Entry distance of a box given per axis plane distances, or kInfinity; the far side is widened by
-// three roundings so that no ray slips between touching boxes (Ize 2013, "Robust BVH Ray Traversal").
-float boxEntry(vec3 minimum, vec3 maximum, vec3 origin, vec3 inverse, float tMin, float tMax) {
-    vec3 a = (minimum - origin) * inverse;
-    vec3 b = (maximum - origin) * inverse;
+// Entry distance of a box widened by `slack`, or kInfinity; the far side is widened by three roundings more so that no
+// ray slips between touching boxes (Ize 2013, "Robust BVH Ray Traversal"). `low` and `high`: the origin less and plus slack.
+float boxEntry(vec3 minimum, vec3 maximum, vec3 low, vec3 high, vec3 inverse, float tMin, float tMax) {
+    vec3 a = (minimum - high) * inverse;
+    vec3 b = (maximum - low) * inverse;
     vec3 entry = min(a, b), exit = max(a, b);
     float t0 = max(max(entry.x, entry.y), max(entry.z, tMin));
     float t1 = min(min(exit.x, exit.y), min(exit.z, tMax)) * 1.0000004;
@@ -50,7 +50,8 @@ bool traverse(inout Hit best, Ray ray, uint firstPrimitive, bool active_, inout 
     int depth = 0;
     int node = active_ ? 0 : kBvhEnd;
     uint steps = 0u;
-    float tMin = ray.tMin * (1.0 - kDistanceMargin);
+    float tMin = ray.tMin * (1.0 - kDistanceMargin), slack = max(ray.slack, 0.0);
+    vec3 low = ray.origin - slack, high = ray.origin + slack;
     while (node != kBvhEnd && steps < kMaxTraversalSteps) {
         // Down to a leaf in a loop of its own: lanes do not wait for triangles at every node.
         uint down = 0u;
@@ -59,8 +60,8 @@ bool traverse(inout Hit best, Ray ray, uint firstPrimitive, bool active_, inout 
             int texel = int(kBvhNodeTexels) * node;
             vec4 min0 = texelFetch(bvhTexels, texel), max0 = texelFetch(bvhTexels, texel + 1);
             vec4 min1 = texelFetch(bvhTexels, texel + 2), max1 = texelFetch(bvhTexels, texel + 3);
-            float t0 = boxEntry(min0.xyz, max0.xyz, ray.origin, inverse, tMin, best.t * (1.0 + kDistanceMargin));
-            float t1 = boxEntry(min1.xyz, max1.xyz, ray.origin, inverse, tMin, best.t * (1.0 + kDistanceMargin));
+            float t0 = boxEntry(min0.xyz, max0.xyz, low, high, inverse, tMin, best.t * (1.0 + kDistanceMargin));
+            float t1 = boxEntry(min1.xyz, max1.xyz, low, high, inverse, tMin, best.t * (1.0 + kDistanceMargin));
             int child0 = floatBitsToInt(min0.w), child1 = floatBitsToInt(min1.w);
             bool swap = t1 < t0;
             int near = swap ? child1 : child0, far = swap ? child0 : child1;

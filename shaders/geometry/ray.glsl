@@ -25,6 +25,11 @@ struct Hit {
     bool near;       // flat primitive that the ray's start lies in within rounding: t says nothing about which side
 };
 
+// Corners of a triangle, or three of a quad's, whose fourth is b + c - a.
+struct Face {
+    vec3 a, b, c;
+};
+
 struct Surface {
     vec3 position;
     vec3 geometricNormal;  // unit, front side
@@ -32,11 +37,9 @@ struct Surface {
     float offset;          // by which rays leave it along the geometric normal: bound of the position's rounding error
     uint shape;
     vec2 uv;               // for textures; 0 where the scene has none
-    vec3 corner;           // quads and triangles: corner + edgeU, corner + edgeV are corners as well
-    vec3 edgeU, edgeV;
     float slack;           // quads and triangles: how far a ray's start may lie off it; negative: others
-    vec3 edge;             // unit, along the edge that the position is next to; 0: next to none
-    vec3 inward;           // from there to the middle
+    Face face;
+    vec2 weights;          // position: face.a + weights.x (face.b - face.a) + weights.y (face.c - face.a)
 };
 
 // A ray from the camera, from a surface or from a medium that has not met anything yet.

@@ -7,9 +7,6 @@
 #include "core/unroll.glsl"
 #include "geometry/ray.glsl"
 
-// What counts as next to an edge, as a share of the primitive, and as one of its longest edge (slivers).
-const float kNextToEdge = 0.0009765625;
-const float kEdgeWidth = 6.103515625e-5;
 const float kPositionError = 4.2e-7;  // 7 roundings of 2^-24
 
 const bool hasSurfaceUvs = hasTextures || hasTexturedLights;
@@ -28,11 +25,9 @@ Surface triangleSurface(uint index, vec2 uv) {
     vec3 u = b - a.xyz, v = c - a.xyz, doubled = cross(u, v);
     float first = 1.0 - uv.x - uv.y, least = min(first, min(uv.x, uv.y));
     float longest = sqrt(max(dot(u, u), max(dot(v, v), dot(u - v, u - v)))), height = length(doubled) / longest;
-    bool isNext = least < kNextToEdge || least * height < kEdgeWidth * longest;
-    vec3 edge = normalize(least == first ? v - u : least == uv.x ? v : u);
     vec3 spread = abs(first * a.xyz) + abs(uv.x * b) + abs(uv.y * c);
     float lateral = kPositionError * (maxComponent(spread) + longest);
-    if (least * height < lateral) uv += min(0.5, 3.0 * lateral / height) * (1.0 / 3.0 - uv);
+    if (least * height < 4.0 * lateral) uv += min(0.5, 12.0 * lateral / height) * (1.0 / 3.0 - uv);
     first = 1.0 - uv.x - uv.y;
     vec3 normal = normalize(doubled);
     vec3 shading = normal;
@@ -45,10 +40,8 @@ Surface triangleSurface(uint index, vec2 uv) {
     }
     vec3 error = kPositionError * (abs(first * a.xyz) + abs(uv.x * b) + abs(uv.y * c));
     float offset = dot(abs(normal), error);
-    vec3 inward = (1.0 / 3.0 - uv.x) * u + (1.0 / 3.0 - uv.y) * v;
     return Surface(a.xyz * first + b * uv.x + c * uv.y, normal, shading, offset, floatBitsToUint(a.w),
-                   hasSurfaceUvs ? triangleUv(index, uv) : vec2(0.0), a.xyz, u, v, 2.0 * offset, isNext ? edge : vec3(0.0),
-                   inward);
+                   hasSurfaceUvs ? triangleUv(index, uv) : vec2(0.0), 2.0 * offset, Face(a.xyz, b, c), uv);
 }
 
 // Box: the face whose local coordinate is largest; its gradient is the world normal.
@@ -85,22 +78,18 @@ vec2 quadUv(Quad quad, vec3 position) {
 // Shader only: within surfaceAt in the reference.
 Surface quadSurface(Quad quad, vec3 position) {
     vec2 uv = quadUv(quad, position), rest = min(uv, 1.0 - uv);
-    bool isNext = min(rest.x, rest.y) < kNextToEdge;
-    vec3 edge = isNext ? normalize(rest.x < rest.y ? quad.edgeV : quad.edgeU) : vec3(0.0);
     vec2 lengths = vec2(length(quad.edgeU), length(quad.edgeV)), size = kPositionError * (maxComponent(abs(position)) + lengths);
     vec2 middle = mix(vec2(0.0), min(vec2(0.5), size / lengths), lessThan(rest * lengths, size)) * (0.5 - uv);
     position += middle.x * quad.edgeU + middle.y * quad.edgeV;
-    vec3 inward = (0.5 - uv.x) * quad.edgeU + (0.5 - uv.y) * quad.edgeV;
     vec3 p = position - quad.corner;
     float slack = abs(dot(quad.normal, p)) + 2.98023224e-7 * dot(abs(quad.normal), abs(p));  // 5 roundings
-    return Surface(position, quad.normal, quad.normal, 0.0, quad.shape, uv, quad.corner, quad.edgeU, quad.edgeV, slack,
-                   edge, inward);
+    Face face = Face(quad.corner, quad.corner + quad.edgeU, quad.corner + quad.edgeV);
+    return Surface(position, quad.normal, quad.normal, 0.0, quad.shape, uv, slack, face, uv + middle);
 }
 
 // Shader only: the reference's members have defaults.
 Surface roundSurface(vec3 position, vec3 normal, uint shape, vec2 uv) {
-    return Surface(position, normal, normal, 0.0, shape, uv, vec3(0.0), vec3(0.0), vec3(0.0), -1.0, vec3(0.0),
-                   vec3(0.0));
+    return Surface(position, normal, normal, 0.0, shape, uv, -1.0, Face(vec3(0.0), vec3(0.0), vec3(0.0)), vec2(0.0));
 }
 
 Surface sphereSurface(Sphere s, vec3 position) {

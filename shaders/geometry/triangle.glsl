@@ -22,12 +22,15 @@ RayShear rayShear(vec3 d) {
     return RayShear(ivec3(x, y, z), vec3(d[x] / d[z], d[y] / d[z], 1.0 / d[z]));
 }
 
-// Bound of the error of t where no coordinate of the vertices, sheared and seen from the origin, is above `size`, no edge
-// function above `largest`, and the origin itself is uncertain by `slack` (PBR4 6.8.7 with one size for all three axes).
-float distanceError(float size, float largest, float determinant, float scaleZ, float slack) {
+// Bound of the error of t where no coordinate of the vertices, sheared and seen from the origin, is above that of `size`,
+// no edge function above `largest`, and the origin itself is uncertain by `slack` (PBR4 6.8.7; infinite where the sum of
+// the edge functions may be 0).
+float distanceError(vec3 size, float largest, float determinant, float scaleZ, float slack) {
     const float e = 5.9604645e-8;  // 2^-24
-    float edge = size * (44.0 * e * size + 8.0 * slack);
-    return 3.0 * (size * edge + largest * (6.0 * e * size + slack)) * abs(scaleZ / determinant);
+    vec2 lateral = 5.0 * e * (size.xy + size.z) + 2.0 * slack;
+    float edge = 2.0 * (2.0 * e * size.x * size.y + lateral.y * size.x + lateral.x * size.y);
+    float least = max(abs(determinant) - 3.0 * edge, 0.0);
+    return 3.0 * (size.z * edge + largest * (6.0 * e * size.z + slack)) * abs(scaleZ) / least;
 }
 
 // (t, b1, b2, error of t) of the hit, barycentrics of the second and third vertex; t < 0 without error where there is
@@ -43,10 +46,8 @@ vec4 intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2, float
     bool outside = min(u, min(v, w)) < 0.0 && max(u, max(v, w)) > 0.0;
     float determinant = u + v + w;
     float t = s.shear.z * (u * a[s.axes.z] + v * b[s.axes.z] + w * c[s.axes.z]) / determinant;
-    vec3 sizes = max(max(abs(vec3(ax, bx, cx)), abs(vec3(ay, by, cy))),
-                     abs(vec3(a[s.axes.z], b[s.axes.z], c[s.axes.z])));
-    float error = distanceError(max(sizes.x, max(sizes.y, sizes.z)), max(abs(u), max(abs(v), abs(w))), determinant,
-                                s.shear.z, slack);
+    vec3 size = max(abs(vec3(ax, ay, a[s.axes.z])), max(abs(vec3(bx, by, b[s.axes.z])), abs(vec3(cx, cy, c[s.axes.z]))));
+    float error = distanceError(size, max(abs(u), max(abs(v), abs(w))), determinant, s.shear.z, slack);
     return outside || determinant == 0.0 ? vec4(-1.0, -1.0, -1.0, 0.0) : vec4(t, v / determinant, w / determinant, error);
 }
 

@@ -25,7 +25,7 @@ struct Path {
     uint vertexInside;
     uint vertexLast;
     Start vertexStart;     // as in Surface, for rays that leave it
-    float vertexOffset;
+    vec3 vertexOffset;     // along the geometric normal
     float vertexSlack;
     uint stalledTurns;     // since it last left, or moved along, a ray
 };
@@ -89,14 +89,14 @@ void savePath(uint lane, uint stride, Path p) {
     storeVector(at, stride, p.pending);
     storeVector(at, stride, p.nextDirection);
     storeVector(at, stride, p.vertexPosition);
-    storeVector(at, stride, p.vertexStart.normal);
-    storeVector(at, stride, p.vertexStart.edge);
-    storeVector(at, stride, p.vertexStart.inward);
+    storeVector(at, stride, p.vertexStart.face.a);
+    storeVector(at, stride, p.vertexStart.face.b);
+    storeVector(at, stride, p.vertexStart.face.c);
+    storeVector(at, stride, vec3(p.vertexStart.weights, p.vertexSlack));
+    storeVector(at, stride, p.vertexOffset);
     storeWord(at, stride, floatBitsToUint(p.lastPdf));
     storeWord(at, stride, p.nextExponential.x);
     storeWord(at, stride, p.nextExponential.y);
-    storeWord(at, stride, floatBitsToUint(p.vertexOffset));
-    storeWord(at, stride, floatBitsToUint(p.vertexSlack));
     storeWord(at, stride, p.vertexInside);
     storeWord(at, stride, p.vertexLast);
     storeWord(at, stride, p.stalledTurns);
@@ -122,14 +122,16 @@ void loadPath(uint lane, uint stride, inout Path p) {
     p.pending = loadVector(at, stride);
     p.nextDirection = loadVector(at, stride);
     p.vertexPosition = loadVector(at, stride);
-    p.vertexStart.normal = loadVector(at, stride);
-    p.vertexStart.edge = loadVector(at, stride);
-    p.vertexStart.inward = loadVector(at, stride);
+    p.vertexStart.face.a = loadVector(at, stride);
+    p.vertexStart.face.b = loadVector(at, stride);
+    p.vertexStart.face.c = loadVector(at, stride);
+    vec3 start = loadVector(at, stride);
+    p.vertexStart.weights = start.xy;
+    p.vertexSlack = start.z;
+    p.vertexOffset = loadVector(at, stride);
     p.lastPdf = loadFloat(at, stride);
     p.nextExponential.x = loadWord(at, stride);
     p.nextExponential.y = loadWord(at, stride);
-    p.vertexOffset = loadFloat(at, stride);
-    p.vertexSlack = loadFloat(at, stride);
     p.vertexInside = loadWord(at, stride);
     p.vertexLast = loadWord(at, stride);
     p.stalledTurns = loadWord(at, stride);

@@ -46,9 +46,8 @@ const uint kBegin = 5u;     // the window's first path
 void startRay(inout Path p, bool shadow, DirectLight light, uvec2 shadowExponential) {
     vec3 direction = shadow ? light.direction : p.nextDirection;
     uvec2 word = shadow ? shadowExponential : p.nextExponential;
-    vec3 offset = p.vertexStart.normal * p.vertexOffset;
-    float side = dot(offset, direction) < 0.0 ? -1.0 : 1.0;
-    vec3 origin = hasTriangles ? p.vertexPosition + side * offset : p.vertexPosition;
+    float side = dot(p.vertexOffset, direction) < 0.0 ? -1.0 : 1.0;
+    vec3 origin = hasTriangles ? p.vertexPosition + side * p.vertexOffset : p.vertexPosition;
     p.ray = newRay(origin, direction, shadow ? light.distance : kInfinity, p.vertexLast, shadow ? light.target : kNone,
                    p.vertexInside, p.vertexSlack);
     p.segment.shadow = shadow;
@@ -67,8 +66,8 @@ void keyPath(inout Path p, uint pixelIndex, PathArguments arguments) {
 
 // Shader only: the reference's vertices begin so.
 void leaveNoSurface(inout Path p) {
-    p.vertexStart = Start(vec3(0.0), vec3(0.0), vec3(0.0));
-    p.vertexOffset = 0.0;
+    p.vertexStart = Start(Face(vec3(0.0), vec3(0.0), vec3(0.0)), vec2(0.0));
+    p.vertexOffset = vec3(0.0);
     p.vertexSlack = -1.0;
 }
 

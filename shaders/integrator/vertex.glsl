@@ -46,8 +46,8 @@ Vertex surfaceVertex(inout Path p, Surface surface, Shape shape, inout vec3 gain
     vec3 normal = surface.shadingNormal;
     if (hasDoubleSided && (shape.flags & kShapeTwoSided) != 0u && dot(normal, wo) < 0.0) normal = -normal;
     p.vertexPosition = surface.position;
-    p.vertexStart = Start(surface.geometricNormal, surface.edge, surface.inward);
-    p.vertexOffset = surface.offset;
+    p.vertexStart = Start(surface.face, surface.weights);
+    p.vertexOffset = surface.geometricNormal * surface.offset;
     p.vertexSlack = surface.slack;
     p.vertexLast = p.hit.primitive;
     p.vertexInside = p.ray.inside;

@@ -71,7 +71,7 @@ SHARED_CONST(uint, kDrawIndexShift, 3u);
 
 // A path saved between dispatches: kPathStateWords words, word w of the batch's pixel p at w * pixels + p. Word
 // kPathSampleWord counts the samples that the pixel has in this window.
-SHARED_CONST(uint, kPathStateWords, 66u);
+SHARED_CONST(uint, kPathStateWords, 70u);
 SHARED_CONST(uint, kPathSampleWord, 0u);
 
 struct PathArguments {

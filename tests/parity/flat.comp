@@ -4,16 +4,26 @@
 #include "../support/probe.glsl"
 #include "geometry/intersection.glsl"
 
-// A ray that leaves a primitive (origin, slack; direction; its id) has met `primitive` near, at t; the surface that it
-// left: normal, edge along z or none; inward.
+// A ray (origin, slack; direction) that left primitive c.x, from a point of these weights, has met c.y near, at c.z.
 void meetNeighbour() {
-    vec4 a = probeInput(0u), c = probeInput(2u), left = probeInput(3u);
+    vec4 a = probeInput(0u), c = probeInput(2u);
     Ray ray = newRay(a.xyz, probeInput(1u).xyz, kInfinity, floatBitsToUint(c.x), kNone, kNone, a.w);
+    Hit left = Hit(0.0, ray.last, vec2(1.0 / 3.0), false, false);
     Hit hit = Hit(c.z, floatBitsToUint(c.y), vec2(1.0 / 3.0), false, true);
-    Start start = Start(left.xyz, vec3(0.0, 0.0, left.w), probeInput(4u).xyz);
+    Start start = Start(surfaceAt(ray, left).face, probeInput(3u).xy);
     bool isFlat = isFlatPrimitive(hit.primitive);
     bool aside = leavesAside(ray, hit, surfaceAt(ray, hit), start);
     probeOutput(0u, vec4(isFlat, aside, 0.0, 0.0));
+}
+
+// Planes of a face, and the distances of its corners and of a point.
+void measure() {
+    Face face = Face(probeInput(0u).xyz, probeInput(1u).xyz, probeInput(2u).xyz);
+    vec3 point = probeInput(3u).xyz;
+    Plane plane = planeOf(face);
+    probeOutput(0u, vec4(plane.at, plane.spread));
+    probeOutput(1u, vec4(plane.normal, dot(planeDistance(plane, face, face.b), vec2(1.0))));
+    probeOutput(2u, vec4(planeDistance(plane, face, point), startDistance(plane, face, false, point)));
 }
 
 // A ray along z with a memory (idle, idleT, passed, tMin), inside c.y, crosses a boundary of a shape (with its exterior,
@@ -35,4 +45,5 @@ void probeItem() {
     loadScene();
     if (probeFunction == 0u) meetNeighbour();
     if (probeFunction == 1u) cross_();
+    if (probeFunction == 2u) measure();
 }

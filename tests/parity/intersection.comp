@@ -23,7 +23,7 @@ void probeItem() {
             probeOutput(3u, vec4(surface.shadingNormal, hit.exits));
             probeOutput(4u, vec4(surface.offset, 0.0, 0.0, ok));
             break;
-        case 1u: probeOutput(0u, vec4(boxEntry(probeInput(2u).xyz, probeInput(3u).xyz, a.xyz, finiteInverse(b.xyz), a.w, b.w))); break;
+        case 1u: probeOutput(0u, vec4(boxEntry(probeInput(2u).xyz, probeInput(3u).xyz, a.xyz - 0.25, a.xyz + 0.25, finiteInverse(b.xyz), a.w, b.w))); break;
         case 2u:
             probeOutput(0u, vec4(boxNormal(scene.boxes[0], a.xyz), 0.0));
             probeOutput(1u, vec4(boxSurface(scene.boxes[0], a.xyz).geometricNormal, 0.0));

@@ -221,7 +221,7 @@ TEST_F(IntersectionParity, BoundsAreNeverLostH39) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const glm::dvec3 origin(inputs[4 * i]), direction(inputs[4 * i + 1]);
-        const auto ray = reference::prepareBoundsRay(origin, direction);
+        const auto ray = reference::prepareBoundsRay(origin, direction, 0.25);
         const double expected =
             reference::boxEntry(inputs[4 * i + 2], inputs[4 * i + 3], ray, 0.0, reference::kInfinity<double>);
         if (std::isinf(expected)) {

@@ -31,8 +31,8 @@ void probeItem() {
             probeOutput(0u, vec4(none.t, uintBitsToFloat(none.primitive), none.near, isAhead(ray, b.x, floatBitsToUint(b.z))));
             break;
         case 3u:
-            vec4 c = probeInput(0u);
-            probeOutput(0u, vec4(distanceError(c.x, c.y, c.z, c.w, probeInput(1u).x)));
+            vec4 c = probeInput(0u), d = probeInput(1u);
+            probeOutput(0u, vec4(distanceError(c.xyz, c.w, d.x, d.y, d.z)));
             break;
     }
 }

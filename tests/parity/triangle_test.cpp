@@ -233,8 +233,8 @@ TEST(TriangleParity, WhatIsStillAheadAgrees) {
     }
 }
 
-// The bound holds: distances in float, of rays that start on the triangle's plane give or take `slack`, are off by
-// less.
+// The bound holds: distances in float, of rays that start on the triangle's plane give or take `slack` or far from it,
+// are off by less.
 TEST(TriangleParity, DistancesAreWithinTheirErrorBound) {
     std::vector<Case> cases;
     std::vector<glm::vec4> inputs, bounds;
@@ -246,22 +246,23 @@ TEST(TriangleParity, DistancesAreWithinTheirErrorBound) {
                shift + stress.point(size)};
         const float s = stress.between(0, 1), t = stress.between(0, 1);
         c.origin = c.a + (c.b - c.a) * s * (1 - t) + (c.c - c.a) * s * t;
+        if (i % 4 == 1) c.origin -= 300 * size * c.direction;
         cases.push_back(c);
         const float slack = i % 3 == 0 ? 0.0f : 1e-6f * size;
         inputs.emplace_back(c.origin, slack);
         for (const glm::vec3& v : {c.direction, c.a, c.b, c.c}) inputs.emplace_back(v, 0);
-        bounds.emplace_back(size, size * size, 0.5f * size * size * stress.between(0.1f, 1), 1.5f);
-        bounds.emplace_back(slack);
+        bounds.emplace_back(size, size * stress.between(0.1f, 1), 3 * size, size * size);
+        bounds.emplace_back(0.5f * size * size * stress.between(0.1f, 1), 1.5f, slack, 0);
     }
     const auto outputs = test::probe(kShader, kIntersect, inputs, 5, 2);
     const auto errors = test::probe(kShader, kError, bounds, 2, 1);
     // Ten products and sums on the way, all of one sign.
     Parity parity("geometry/triangle", "distanceError", 12);
-    std::size_t hits = 0, loose = 0;
+    std::size_t hits = 0, loose = 0, far = 0;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        const glm::vec4& b = bounds[2 * i];
+        const glm::vec4 &b = bounds[2 * i], &rest = bounds[2 * i + 1];
         // The same roundings as float has: the bound counts in them.
-        const double expected = reference::distanceError<float>(b.x, b.y, b.z, b.w, bounds[2 * i + 1].x);
+        const double expected = reference::distanceError<float>(glm::vec3(b), b.w, rest.x, rest.y, rest.z);
         EXPECT_TRUE(parity.near(errors[i].x, expected, expected)) << i;
         const Case& c = cases[i];
         if (outputs[2 * i].y < 0) continue;
@@ -270,10 +271,14 @@ TEST(TriangleParity, DistancesAreWithinTheirErrorBound) {
         const double facing = glm::dot(n, glm::dvec3(c.direction));
         const double exact = glm::dot(n, glm::dvec3(c.a) - glm::dvec3(c.origin)) / facing;
         ++hits;
-        EXPECT_LE(std::abs(outputs[2 * i].x - exact) + bounds[2 * i + 1].x / std::abs(facing), outputs[2 * i].w) << i;
-        loose += outputs[2 * i].w > 1e-2 * glm::length(c.b - c.a);
+        EXPECT_LE(std::abs(outputs[2 * i].x - exact) + rest.z / std::abs(facing), outputs[2 * i].w) << i;
+        const double distance = std::max(double(glm::length(c.b - c.a)), std::abs(exact));
+        loose += outputs[2 * i].w > 1e-2 * distance;
+        far += exact > 200 * glm::length(c.b - c.a);
     }
-    EXPECT_TRUE(hits > 10'000u && loose < hits / 20) << "a bound that is nearly the triangle's size tells nothing";
+    EXPECT_GT(far, 1'000u);
+    EXPECT_TRUE(hits > 10'000u && loose < hits / 20)
+        << loose << " of " << hits << ": a bound that is nearly the triangle's size tells nothing";
 }
 
 }  // namespace

@@ -13,15 +13,16 @@ namespace parhelion::reference {
 template <typename Real>
 struct BoundsRay {
     Vec3<Real> origin, inverse;
+    Real slack;  ///< uncertainty of the origin: bounds are widened by it, for faces that the ray starts just beyond
 };
 
 /// Reference only: the shader divides where it sets up the traversal.
 template <typename Real>
-BoundsRay<Real> prepareBoundsRay(const Vec3<Real>& origin, const Vec3<Real>& direction) {
+BoundsRay<Real> prepareBoundsRay(const Vec3<Real>& origin, const Vec3<Real>& direction, Real slack) {
     Vec3<Real> inverse;
     // The largest finite number for 1 / 0: a plane through the origin gives 0, not 0 * infinity.
     for (int i = 0; i < 3; ++i) inverse[i] = direction[i] == 0 ? std::numeric_limits<Real>::max() : 1 / direction[i];
-    return {origin, inverse};
+    return {origin, inverse, slack};
 }
 
 /// What distances to bounds are widened by: more than the slab test rounds.
@@ -39,8 +40,8 @@ inline constexpr Real kDistanceMargin = Real(0.001);
 /// No triangle within is missed.
 template <typename Real>
 Real boxEntry(const glm::vec4& low, const glm::vec4& high, const BoundsRay<Real>& ray, Real tMin, Real tMax) {
-    const Vec3<Real> a = (Vec3<Real>(low) - ray.origin) * ray.inverse;
-    const Vec3<Real> b = (Vec3<Real>(high) - ray.origin) * ray.inverse;
+    const Vec3<Real> a = (Vec3<Real>(low) - (ray.origin + ray.slack)) * ray.inverse;
+    const Vec3<Real> b = (Vec3<Real>(high) - (ray.origin - ray.slack)) * ray.inverse;
     const Vec3<Real> near = glm::min(a, b), far = glm::max(a, b);
     const Real enter = std::max(std::max(near.x, near.y), near.z);
     const Real leave = std::min(std::min(far.x, far.y), far.z) * kBoundsMargin<Real>;
@@ -62,7 +63,7 @@ void hitLeaf(const SceneView<Real>& scene, const TriangleRay<Real>& ray, std::in
 
 /// Visits every triangle whose leaf the ray meets in [tMin, limit()], near leaves first.
 ///
-/// @param slack   uncertainty of the origin, for the errors of the hits.
+/// @param slack   uncertainty of the origin: faces that it lies just beyond are met as well.
 /// @param limit   () -> Real: distance beyond which nothing matters; read again as it shrinks.
 /// @param accept  (triangle, TriangleHit): called for each hit, in any order, perhaps twice.
 template <typename Real, typename Limit, typename Accept>
@@ -73,7 +74,7 @@ void traverse(const SceneView<Real>& scene, const Vec3<Real>& origin, const Vec3
         Real enter;
     };
     const TriangleRay<Real> triangleRay = rayShear(origin, direction);
-    const BoundsRay<Real> boundsRay = prepareBoundsRay(origin, direction);
+    const BoundsRay<Real> boundsRay = prepareBoundsRay(origin, direction, slack);
     std::array<Pending, shared::kBvhStackSize> stack;
     std::size_t depth = 0;
     const Real tLow = tMin * (1 - kDistanceMargin<Real>);

@@ -22,10 +22,8 @@ struct Ray {
 
     /// The flat surface that the ray leaves.
     struct Start {
-        Vec3<Real> normal{0};  ///< unit, either side
-        Vec3<Real> edge{0};    ///< unit, along the edge that the ray starts next to; 0: next to none
-        Vec3<Real> inward{0};  ///< from there to the middle of the primitive
-        Real slack = -1;       ///< how far the ray's start may lie off it; negative: the ray leaves none
+        Vec2<Real> weights{0};  ///< of its second and third corner in the point that the ray starts from
+        Real slack = -1;        ///< how far the ray's start may lie off it; negative: the ray leaves none
     } start;
 
     /// The last crossing that changed nothing.

@@ -14,20 +14,12 @@ struct Surface {
     Vec3<Real> position, geometricNormal, shadingNormal;
     Real rounding;  ///< a bound on how far `position` lies off a triangle along its normal; 0 on other shapes
     Vec2<Real> uv{0};
-    Real slack = -1;       ///< quads and triangles: how far a ray's start may lie off it
-    Vec3<Real> edge{0};    ///< quads and triangles: unit, along the edge that the position is next to; 0: next to none
-    Vec3<Real> inward{0};  ///< quads and triangles: from the position to the middle
+    Real slack = -1;        ///< quads and triangles: how far a ray's start may lie off it
+    Vec2<Real> weights{0};  ///< quads and triangles: of the second and third corner in the position
 
     /// Reference only: the shader writes them into the path state.
-    typename Ray<Real>::Start start() const { return {geometricNormal, edge, inward, slack}; }
+    typename Ray<Real>::Start start() const { return {weights, slack}; }
 };
-
-/// Next to an edge is what is this share of a flat primitive away from it, or, of slivers, this share of the longest
-/// edge.
-template <typename Real>
-inline constexpr Real kNextToEdge = Real(1) / 1024;
-template <typename Real>
-inline constexpr Real kEdgeWidth = Real(1) / 16384;
 
 /// Relative error of a sum of three products.
 template <typename Real>
@@ -56,24 +48,21 @@ Vec2<Real> triangleUv(const SceneView<Real>& scene, std::uint32_t triangle, cons
            barycentric.y * Vec2<Real>(uv[2]);
 }
 
-/// Where a point of a triangle lies in it: `edge` of its surface, and the point itself, moved towards the middle if it
-/// is within its own rounding of an edge.
+/// Moves a point that is next to an edge of a triangle, four times its own rounding or less away, towards the middle.
 /// Reference only: within triangleSurface in the shader.
 ///
 /// @param b  barycentrics of the point.
 template <typename Real>
-void placeInTriangle(const SceneView<Real>& scene, std::uint32_t triangle, Vec3<Real>& b, Surface<Real>& surface) {
+void moveOffEdges(const SceneView<Real>& scene, std::uint32_t triangle, Vec3<Real>& b) {
     const Vec3<Real> corners[3] = {scene.vertex(triangle, 0), scene.vertex(triangle, 1), scene.vertex(triangle, 2)};
     const Vec3<Real> edges[3] = {corners[2] - corners[1], corners[0] - corners[2], corners[1] - corners[0]};
     const int nearest = b.x <= b.y && b.x <= b.z ? 0 : (b.y <= b.z ? 1 : 2);
     const Real longest = std::max({glm::length(edges[0]), glm::length(edges[1]), glm::length(edges[2])});
     const Real height = glm::length(glm::cross(edges[2], edges[1])) / longest, distance = b[nearest] * height;
-    if (b[nearest] < kNextToEdge<Real> || distance < kEdgeWidth<Real> * longest)
-        surface.edge = glm::normalize(edges[nearest]);
     const Vec3<Real> terms = glm::abs(b.x * corners[0]) + glm::abs(b.y * corners[1]) + glm::abs(b.z * corners[2]);
     const Real rounding = kGamma7<Real> * (maxComponent(terms) + longest);
-    if (distance >= rounding) return;
-    const Real share = std::min(Real(0.5), 3 * rounding / height), third = Real(1) / 3;
+    if (distance >= 4 * rounding) return;
+    const Real share = std::min(Real(0.5), 12 * rounding / height), third = Real(1) / 3;
     b.y += share * (third - b.y);
     b.z += share * (third - b.z);
     b.x = 1 - b.y - b.z;
@@ -86,7 +75,7 @@ template <typename Real>
 Surface<Real> triangleSurface(const SceneView<Real>& scene, std::uint32_t triangle, const Vec2<Real>& barycentric) {
     Vec3<Real> b{1 - barycentric.x - barycentric.y, barycentric.x, barycentric.y};
     Surface<Real> surface;
-    placeInTriangle(scene, triangle, b, surface);
+    moveOffEdges(scene, triangle, b);
     const Vec3<Real> p0 = b.x * scene.vertex(triangle, 0);
     const Vec3<Real> p1 = b.y * scene.vertex(triangle, 1);
     const Vec3<Real> p2 = b.z * scene.vertex(triangle, 2);
@@ -96,9 +85,7 @@ Surface<Real> triangleSurface(const SceneView<Real>& scene, std::uint32_t triang
     const Vec3<Real> error = kGamma7<Real> * (glm::abs(p0) + glm::abs(p1) + glm::abs(p2));
     surface.rounding = glm::dot(error, glm::abs(surface.geometricNormal));
     surface.slack = 2 * surface.rounding;
-    const Real third = Real(1) / 3;
-    surface.inward = (third - b.y) * (scene.vertex(triangle, 1) - scene.vertex(triangle, 0)) +
-                     (third - b.z) * (scene.vertex(triangle, 2) - scene.vertex(triangle, 0));
+    surface.weights = {b.y, b.z};
     if (!scene.source.triangleUvs.empty()) surface.uv = triangleUv(scene, triangle, Vec2<Real>(b.y, b.z));
     if (scene.source.vertexNormals.empty()) return surface;
     const glm::vec4* normals = &scene.source.vertexNormals[std::size_t(triangle) * 3];
@@ -166,14 +153,12 @@ Surface<Real> quadSurface(const Quad<Real>& quad, const Vec3<Real>& position) {
         const Real rounding = kGamma7<Real> * (maxComponent(glm::abs(position)) + length);
         return beside * length < rounding ? std::min(Real(0.5), rounding / length) * (Real(0.5) - at) : Real(0);
     };
-    const Vec3<Real> moved = position + move(u, besideU, glm::length(quad.edgeU)) * quad.edgeU +
-                             move(v, besideV, glm::length(quad.edgeV)) * quad.edgeV;
+    const Real moveU = move(u, besideU, glm::length(quad.edgeU)), moveV = move(v, besideV, glm::length(quad.edgeV));
+    const Vec3<Real> moved = position + moveU * quad.edgeU + moveV * quad.edgeV;
     Surface<Real> surface{moved, quad.normal, quad.normal, 0, {u, v}};
+    surface.weights = {u + moveU, v + moveV};
     surface.slack = std::abs(glm::dot(quad.normal, p)) +
                     Real(2.5) * std::numeric_limits<Real>::epsilon() * glm::dot(glm::abs(quad.normal), glm::abs(p));
-    surface.inward = (Real(0.5) - u) * quad.edgeU + (Real(0.5) - v) * quad.edgeV;
-    if (std::min(besideU, besideV) < kNextToEdge<Real>)
-        surface.edge = glm::normalize(besideU < besideV ? quad.edgeV : quad.edgeU);
     return surface;
 }
 

@@ -42,19 +42,20 @@ TriangleRay<Real> rayShear(const Vec3<Real>& origin, const Vec3<Real>& direction
 
 /// Bound on the error of the distance to a triangle, of the vertices in the sheared space.
 ///
-/// @param size   largest coordinate of all three on all three axes: one size for the source's x, y and z.
-/// @param edge   largest edge function; det: their sum.
+/// @param size   largest coordinates of all three on each axis.
+/// @param edge   largest edge function; det: their sum. Where that may be 0 the bound is infinite.
 /// @param scale  a distance is z times it.
 /// @param slack  uncertainty of the ray's origin: of z once, of the sheared x and y twice.
 ///
 /// Source: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", 4th ed., section 6.8.7.
 template <typename Real>
-Real distanceError(Real size, Real edge, Real det, Real scale, Real slack) {
+Real distanceError(const Vec3<Real>& size, Real edge, Real det, Real scale, Real slack) {
     constexpr Real kUnit = std::numeric_limits<Real>::epsilon() / 2;
-    const Real deltaZ = 3 * kUnit * size + slack;
-    const Real deltaX = 5 * kUnit * (size + size) + 2 * slack;
-    const Real deltaEdge = 2 * (2 * kUnit * size * size + deltaX * size + deltaX * size);
-    return 3 * (3 * kUnit * edge * size + deltaEdge * size + deltaZ * edge) * std::abs(scale / det);
+    const Real deltaZ = 3 * kUnit * size.z + slack;
+    const Real deltaX = 5 * kUnit * (size.x + size.z) + 2 * slack, deltaY = 5 * kUnit * (size.y + size.z) + 2 * slack;
+    const Real deltaEdge = 2 * (2 * kUnit * size.x * size.y + deltaY * size.x + deltaX * size.y);
+    const Real least = std::max(std::abs(det) - 3 * deltaEdge, Real(0));
+    return 3 * (3 * kUnit * edge * size.z + deltaEdge * size.z + deltaZ * edge) * std::abs(scale) / least;
 }
 
 /// Watertight: a ray through a shared edge hits at least one of the two triangles (H47). No culling.
@@ -75,7 +76,7 @@ std::optional<TriangleHit<Real>> intersectTriangle(const TriangleRay<Real>& ray,
     if (det == 0) return std::nullopt;
     const Real scaledT = u * (ray.shear.z * a[ray.kz]) + v * (ray.shear.z * b[ray.kz]) + w * (ray.shear.z * c[ray.kz]);
     const auto largest = [](Real p, Real q, Real r) { return std::max({std::abs(p), std::abs(q), std::abs(r)}); };
-    const Real size = std::max({largest(ax, bx, cx), largest(ay, by, cy), largest(a[ray.kz], b[ray.kz], c[ray.kz])});
+    const Vec3<Real> size(largest(ax, bx, cx), largest(ay, by, cy), largest(a[ray.kz], b[ray.kz], c[ray.kz]));
     const Real error = distanceError(size, largest(u, v, w), det, ray.shear.z, slack);
     return TriangleHit<Real>{scaledT / det, v / det, w / det, error};
 }

@@ -65,7 +65,7 @@ Vec3<Real> estimateTransmittance(const PathContext<Real, Trace>& path, Ray<Real>
         const Hit<Real> hit = closestHit(path.scene, ray);
         const bool isOpaque = hit.found() && !hit.isNull;
         if (isOpaque && !hit.near) return Vec3<Real>(0);
-        if (isOpaque && !leavesAside(path.scene, ray, hit, flatNormal(path.scene, hit.primitive))) return Vec3<Real>(0);
+        if (isOpaque && !leavesAside(path.scene, ray, hit)) return Vec3<Real>(0);
         const Real tEnd = hit.found() ? hit.t : ray.tMax;
         if (std::isinf(tEnd)) {
             // Without an end the ray is inside nothing, or has left a mesh unnoticed.

@@ -24,7 +24,7 @@ FlightEnd<Real> fly(const PathContext<Real, Trace>& path, PathState<Real>& state
             const auto t = trackFlight(path, *medium, ray, hit.t, state.scatterings, state.residual, state.throughput);
             if (t) return {Kind::Medium, hit, medium, *t};
         }
-        if (hit.near && !hit.isNull && leavesAside(path.scene, ray, hit, flatNormal(path.scene, hit.primitive))) {
+        if (hit.near && !hit.isNull && leavesAside(path.scene, ray, hit)) {
             passHit(path.scene, hit, ray);
             continue;
         }
