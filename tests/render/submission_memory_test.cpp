@@ -16,6 +16,7 @@ namespace parhelion::test {
 namespace {
 
 constexpr glm::uvec2 kTiny{8, 8};
+constexpr long kPipelineKiB = 512;  ///< code of one pipeline, generously
 
 TEST(SubmissionMemory, IsFlatWithAllEffectsOrNone) {
     const CompiledScene scene = compileText(sceneXml("<emitter type=\"constant\"/>"), kTiny);
@@ -40,12 +41,14 @@ TEST(SubmissionMemory, IsFlatForFeatures) {
         render::renderFeatures(testDevice(), scene, deviceScene, settings.seed, samples, constants);
         return memoryOf(::getpid()).executableKiB;
     };
+    // Each call has a pipeline of its own, which the driver frees in its own time: the last one's code (52 KiB) may
+    // still be there. 78 submissions that each compile anew would keep 4 MiB.
     const long few = featuresOf(2);
-    EXPECT_LE(featuresOf(80), few);  // each call has a pipeline of its own, gone when it returns
+    EXPECT_LE(featuresOf(80), few + kPipelineKiB);
 }
 
 TEST(SubmissionMemory, IsFlatForTheBakingOfClouds) {
-    // Three slabs of 2^17 voxels, then twelve.
+    // Three slabs of 2^17 voxels, then 192.
     const auto bake = [](glm::uvec3 resolution) {
         const shared::CloudField field{.detailAmount = 0.5f,
                                        .noiseScale = 4,
@@ -61,7 +64,7 @@ TEST(SubmissionMemory, IsFlatForTheBakingOfClouds) {
         return memoryOf(::getpid()).executableKiB;
     };
     const long few = bake({64, 64, 96});
-    EXPECT_LE(bake({64, 64, 384}), few);
+    EXPECT_LE(bake({64, 64, 64 * 96}), few + kPipelineKiB);
 }
 
 }  // namespace
