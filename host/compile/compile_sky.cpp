@@ -32,6 +32,7 @@ double rampAt(const SkyDescription& sky, double tRaw) {
 
 /// Mean of t over the sphere: over t_raw in [0, 1]. Also right where a large power leaves a spot only.
 double meanOfT(const SkyDescription& sky) {
+    if (sky.power == 0.0) return 1.0;  // 0^0 = 1 below the ramp
     const double low = rampAt(sky, 0.0), high = rampAt(sky, 1.0);
     // So wide that the difference of the integral's ends has no digits: but then t is as good as linear.
     if (sky.width > 1e6) return 0.5 * (std::pow(low, sky.power) + std::pow(high, sky.power));
@@ -111,15 +112,15 @@ glm::dvec3 compileSky(const SkyDescription& sky, const SourceLocation& where, Co
     const double oneMinusCos = starOneMinusCos(sky);
     std::vector<double> brightness;
     for (const Star& star : stars) brightness.push_back(star.brightness);
-    const glm::dvec3 gradient = meanOfGradient(sky);
+    const std::vector<double> bounds = bandBounds(sky);
+    const bool shines = std::ranges::any_of(bounds, [](double bound) { return bound > 0.0; });
+    const glm::dvec3 gradient = shines ? meanOfGradient(sky) : glm::dvec3(0.0);
     const glm::dvec3 starlight =
         0.5 * oneMinusCos * std::accumulate(brightness.begin(), brightness.end(), 0.0) * sky.starRadiance;
     if (gradient + starlight == glm::dvec3(0.0)) return glm::dvec3(0.0);
 
     scene.constants.sky = writeGradient(sky, where);
-    const bool shines = gradient != glm::dvec3(0.0);
     const double share = luminance(starlight) / (luminance(starlight) + luminance(gradient));
-    const std::vector<double> bounds = shines ? bandBounds(sky) : std::vector<double>(kSkyBands, 0.0);
     const std::vector<double> probabilities = writeTable(bounds, brightness, share, scene);
     for (const double probability : std::span(probabilities).first(kSkyBands))
         scene.skyBands.push_back(float(probability * kSkyBands / (4.0 * kPi)));

@@ -75,6 +75,12 @@ TEST(CompiledSky, DropsWhatIsBlackWithANote) {
     SkyDescription sky = gradient({0, 0, 0}, {0, 0, 0});
     EXPECT_EQ(compiled(sky).constants.environment, shared::kNone);
     EXPECT_EQ(compiled(sky).notes.size(), 1u);
+    SkyDescription powerless = gradient({1, 1, 1}, {0, 0, 0});  // 0^0 is 1: bottom is nowhere
+    powerless.power = 0;
+    powerless.width = 0.5;
+    powerless.starDensity = 1e-4;  // not one
+    powerless.starRadiance = glm::dvec3(1);
+    EXPECT_EQ(compiled(powerless).constants.environment, shared::kNone);
     sky.top = {1, 1, 1};
     sky.starDensity = 5;
     sky.starRadiance = glm::dvec3(0);
@@ -128,7 +134,7 @@ TEST(CompiledSky, ContrastCountsStars) {
 
 TEST(CompiledSky, MeanRadianceIsTheIntegralOverTheSphere) {
     for (const double width : {0.0, 0.3, 1.0, 1e3, 1e9})
-        for (const double power : {0.2, 1.0, 3.0, 40.0, 1e5})
+        for (const double power : {0.0, 0.2, 1.0, 3.0, 40.0, 1e5})
             for (const double offset : {0.0, 0.3, -0.7}) {
                 SkyDescription sky = gradient({1, 2, 3}, {7, 1, 0});
                 sky.width = width;
