@@ -8,6 +8,10 @@ namespace parhelion {
 
 namespace {
 
+/// What a point light may be brighter by, near it, than at the scene's far end. Even 2^-40 of the unit squares to 2^-80,
+/// far from what floats lose (2^-126).
+constexpr double kNearerBy = 0x1p40;
+
 double largestOf(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 double brightnessOf(const EmitterDescription& emitter, double sceneRadius) {
@@ -21,8 +25,10 @@ double brightnessOf(const EmitterDescription& emitter, double sceneRadius) {
             for (const glm::vec3& texel : emitter.map.texels) largest = glm::max(largest, texel);
             return largestOf(glm::dvec3(largest) * emitter.value);
         }
-        case Type::Point:
-            return largestOf(emitter.value) / (sceneRadius * sceneRadius);
+        case Type::Point: {
+            const double atFarEnd = largestOf(emitter.value) / (sceneRadius * sceneRadius);
+            return std::clamp(1.0, atFarEnd, kNearerBy * atFarEnd);
+        }
         case Type::Directional:
         case Type::Constant:
             break;
