@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "compile/mesh_edges.h"
 #include "compile/triangle_tree.h"
@@ -57,12 +58,16 @@ private:
         throw InputError(source().where, fmt::format("{}: {}", nameOf(source()), text));
     }
 
-    /// What six written digits, or single precision, leave open; in the mesh's own space.
+    /// What six written digits, or single precision, leave open, in the mesh's own space; of a mesh that is far from its
+    /// own origin not more than what is small against the mesh.
     double tolerance() const {
-        double largest = 0.0;
-        for (const glm::dvec3& p : source().mesh.positions)
-            largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        return 0x1p-18 * largest;
+        glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+        for (const glm::dvec3& p : source().mesh.positions) {
+            lower = glm::min(lower, p);
+            upper = glm::max(upper, p);
+        }
+        const glm::dvec3 largest = glm::max(glm::abs(lower), glm::abs(upper)), size = upper - lower;
+        return std::min(0x1p-18 * std::max({largest.x, largest.y, largest.z}), 0x1p-10 * std::max({size.x, size.y, size.z}));
     }
 
     std::vector<EdgeUse> usesWhere(bool (*wanted)(const EdgeUse&)) const {

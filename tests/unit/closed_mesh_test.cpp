@@ -83,6 +83,11 @@ TEST(ClosedMesh, ClosesGapsOfRounding) {
     }
     for (std::size_t i = 0; i < 4; ++i) seam.positions[i].x += 1e-4;
     expectRefused(seam, "edges with one triangle");
+    // Far from its own origin, where the sixth digit is as large as the hole.
+    Mesh far = cubeMesh();
+    far.triangles.pop_back();
+    for (glm::dvec3& position : far.positions) position.x += 1e6;
+    expectRefused(far, "3 edges with one triangle");
 }
 
 // Two triangles of one neighbour along an edge of another: no edge has a partner of its length, yet nothing is open.
