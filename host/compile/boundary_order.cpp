@@ -8,6 +8,9 @@ namespace parhelion {
 
 using shared::kNone;
 
+namespace {
+
+/// Shapes that a ray can be inside: null ones, an opaque one that holds the camera, and what is around them.
 std::vector<bool> findBoundaries(const CompiledScene& scene) {
     std::vector<bool> found(scene.shapes.size(), false);
     const auto add = [&](std::uint32_t shape) {
@@ -18,6 +21,8 @@ std::vector<bool> findBoundaries(const CompiledScene& scene) {
     add(scene.constants.camera.inside);
     return found;
 }
+
+}  // namespace
 
 std::vector<std::uint32_t> orderBoundaries(const CompiledScene& scene) {
     const auto count = std::uint32_t(scene.shapes.size());

@@ -6,6 +6,7 @@
 
 #include "compile/boundary_relations.h"
 #include "compile/containment.h"
+#include "shared/scene_types.h"
 
 namespace parhelion {
 
@@ -31,6 +32,10 @@ public:
         : shapes_(shapes), media_(media), relations_(shapes) {
         for (std::size_t i = 0; i < shapes.size(); ++i)
             if (boundsMedium(shapes[i])) boundaries_.push_back(i);
+        if (boundaries_.size() > shared::kMaxBoundaries)
+            throw InputError(shapes[boundaries_[shared::kMaxBoundaries]].source->where,
+                             fmt::format("a scene may have at most {} medium boundaries; got {}",
+                                         shared::kMaxBoundaries, boundaries_.size()));
     }
 
     Nesting resolve() const {

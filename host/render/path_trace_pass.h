@@ -30,7 +30,7 @@ public:
     /// A batch's pixels, in crop order, and their layers by number of scatterings, if there are any.
     std::span<const shared::FilmPixel> film(std::size_t batch) { return films_[batch].as<shared::FilmPixel>(); }
     std::span<const shared::LayerPixel> layers(std::size_t batch);
-    /// Words the loop of one turn may spend beyond its budget: what loopBudget must leave of the driver's 65535.
+    /// Largest loopBudget: loop-back tests of a subgroup, of the driver's 65535, that leave room for one more turn.
     static constexpr std::uint32_t kMaximumLoopBudget = 12000;
 
 private:

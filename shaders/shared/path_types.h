@@ -38,7 +38,7 @@ SHARED_LAYOUT(FeaturePixel, 32);
 // Counters of a dispatch, 64 bits each: the low words, then the high ones. The host adds them up after every dispatch and
 // clears them.
 SHARED_CONST(uint, kCounterPathsFinished, 0u);
-SHARED_CONST(uint, kCounterNonFinite, 1u);          // samples dropped because not finite
+SHARED_CONST(uint, kCounterNonFinite, 1u);          // samples dropped because the film cannot hold them: NaN, or 2^63 and more
 SHARED_CONST(uint, kCounterMajorantViolations, 2u); // density above its cell's bound
 SHARED_CONST(uint, kCounterBvhOverflow, 3u);        // traversals cut short: always an error
 SHARED_CONST(uint, kCounterLoopTruncated, 4u);      // loop left without a reason: always an error

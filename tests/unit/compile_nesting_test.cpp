@@ -39,6 +39,15 @@ TEST(MediumNesting, ThreeDeepFindsTheInnermost) {
     EXPECT_EQ(compiled.shapes[2].exterior, 1u);
 }
 
+TEST(MediumNesting, MoreBoundariesThanTheDeviceCanNumberAreRefusedWithAPlace) {
+    std::vector<ShapeDescription> shapes;
+    for (std::uint32_t i = 0; i <= shared::kMaxBoundaries; ++i)
+        shapes.push_back(boundary(sphere("s", {3.0 * i, 0, 0}, 1), 0));
+    shapes.back().where.line = 99;
+    const std::string message = inputErrorOf(sceneWith(shapes));
+    EXPECT_TRUE(contains(message, ":99:") && contains(message, "at most 16383 medium boundaries; got 16384")) << message;
+}
+
 TEST(MediumNesting, OfTwoProvidersTheInnerOneWins) {
     const ShapeDescription outer = boundary(sphere("outer", {}, 3), 0), inner = boundary(sphere("inner", {}, 2), 0, 0),
                            core = boundary(sphere("core", {}, 1), 1, 0);
