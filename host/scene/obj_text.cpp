@@ -112,7 +112,10 @@ private:
 
     void checkIndex(std::string_view text, std::size_t kind, const ObjWord& word) {
         std::int32_t index = 0;
+        if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+        if (error == std::errc::result_out_of_range)
+            fail(word, fmt::format("{} index {:.40} is beyond what a mesh may have", kNames[kind], text));
         if (text.empty() || error != std::errc{} || end != text.data() + text.size() || index == 0)
             fail(word,
                  fmt::format("a {} index must be an integer other than 0; got \"{:.40}\"", kNames[kind], word.text));

@@ -1,4 +1,5 @@
 // OBJ files as people's tools write them: encodings, line ends, comments, continued lines, extreme numbers.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,6 +62,35 @@ TEST(ObjFile, CommentsMayStandBehindEveryStatement) {
     const Mesh mesh = readObj(kCorners + "vt 0.25 0.5#0.75\nvn 0 0 1 # up\nf 1/1/1 2/1/1 3/1/1#\n");
     EXPECT_EQ(mesh.uvs.at(0), glm::dvec2(0.25, 0.5));
     EXPECT_EQ(mesh.normals.at(0), glm::dvec3(0, 0, 1));
+}
+
+// What a C library writes for NaN and infinity holds a #, and so do names of materials.
+TEST(ObjFile, CommentsDoNotBeginWithinNumbersAndNames) {
+    for (const char* number : {"1.#QNAN", "-1.#IND00", "1.#INF", "1.#SNAN"}) {
+        EXPECT_THROW(readObj(fmt::format("v 1 2 {}\nv 2 0 0\nv 0 1 0\nf 1 2 3\n", number)), InputError) << number;
+        EXPECT_THROW(readObj(kCorners + fmt::format("vt 0 {}\nf 1/1 2/1 3/1\n", number)), InputError) << number;
+    }
+    expectTriangle("v 1. 2. 3.#third\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
+    const Mesh mesh = readObj(kCorners + "usemtl a#1\nf 1 2 3\nusemtl a#2\nf 1 2 3\n");
+    EXPECT_THAT(mesh.notes, ElementsAre(HasSubstr("the 2 materials")));
+}
+
+// `mtllib C:\models\` before a statement: the backslash is the name's.
+TEST(ObjFile, NamesMayEndInABackslash) {
+    const Mesh mesh = readObj("mtllib C:\\models\\\n" + kCorners + "g left\\\nf 1 2 3\nusemtl x\\\r\nf 1 2 3\n");
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+}
+
+TEST(ObjFile, IndicesMayHaveASignAndSayWhenTheyAreTooLarge) {
+    expectTriangle(kCorners + "f +1 +2 3\n");
+    for (const char* index : {"99999999999", "2147483648"}) try {
+            readObj(kCorners + fmt::format("f 1 2 {}\n", index));
+            ADD_FAILURE() << index;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("beyond what a mesh may have"));
+        }
+    for (const char* index : {"++1", "+-1", "+", "+0"})
+        EXPECT_THROW(readObj(kCorners + fmt::format("f {} 2 3\n", index)), InputError) << index;
 }
 
 TEST(ObjFile, BackslashInACommentJoinsNothing) {
