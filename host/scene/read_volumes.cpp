@@ -5,6 +5,7 @@
 
 #include "scene/read_cloud.h"
 #include "scene/transforms.h"
+#include "volume/volume_checks.h"
 #include "volume/volume_file.h"
 
 namespace parhelion {
@@ -21,10 +22,10 @@ void checkAlbedoGrid(const PropertyReader& reader, const Volume& volume) {
 
 /// Grid-local [0, 1]^3 to the file's bounding box.
 glm::dmat4 boundsTransform(const PropertyReader& reader, const Volume& volume) {
-    const glm::dvec3 extent = volume.boundsMax - volume.boundsMin;
-    if (!(extent.x > 0.0 && extent.y > 0.0 && extent.z > 0.0))
-        reader.fail(reader.whereOf("use_grid_bbox"), fmt::format("the bounding box of {} is empty", volume.source));
-    return glm::scale(glm::translate(glm::dmat4(1.0), volume.boundsMin), extent);
+    if (!areBounds(volume.boundsMin, volume.boundsMax))
+        reader.fail(reader.whereOf("use_grid_bbox"),
+                    fmt::format("the bounding box of {} is empty or not finite", volume.source));
+    return glm::scale(glm::translate(glm::dmat4(1.0), volume.boundsMin), volume.boundsMax - volume.boundsMin);
 }
 
 /// How Mitsuba looks values up between voxels, and outside of the grid. A medium ends with the grid of its extinction,

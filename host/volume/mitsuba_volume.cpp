@@ -32,7 +32,6 @@ Header readHeader(ByteReader& reader) {
     checkResolution(reader.where(), header.resolution);
     if (header.channels != 1 && header.channels != 3)
         reader.fail(fmt::format("channels must be 1 or 3; got {}", header.channels));
-    checkBounds(reader.where(), header.boundsMin, header.boundsMax);
     return header;
 }
 
@@ -51,6 +50,8 @@ Volume readMitsubaVolume(const VolumeBytes& input) {
         volumeFromDense(input, resolution, header.channels, {reinterpret_cast<const float*>(data.data()), count});
     volume.boundsMin = header.boundsMin;
     volume.boundsMax = header.boundsMax;
+    if (!areBounds(volume.boundsMin, volume.boundsMax))
+        volume.note = "its bounding box is empty or not finite, which matters with \"use_grid_bbox\" only";
     return volume;
 }
 

@@ -22,13 +22,18 @@ void checkResolution(const SourceLocation& where, glm::i64vec3 resolution) {
     }
 }
 
+bool areBounds(const glm::dvec3& boundsMin, const glm::dvec3& boundsMax) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(boundsMin[axis] < boundsMax[axis]) || !std::isfinite(boundsMin[axis]) || !std::isfinite(boundsMax[axis]))
+            return false;
+    return true;
+}
+
 void checkBounds(const SourceLocation& where, const glm::dvec3& boundsMin, const glm::dvec3& boundsMax) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const bool ordered = boundsMin[axis] < boundsMax[axis];  // false for NaN
-        if (!ordered || !std::isfinite(boundsMin[axis]) || !std::isfinite(boundsMax[axis]))
-            throw InputError(where, fmt::format("bounds must be finite with minimum < maximum; got [{}, {}] on axis {}",
-                                                boundsMin[axis], boundsMax[axis], "xyz"[axis]));
-    }
+    if (areBounds(boundsMin, boundsMax)) return;
+    throw InputError(where, fmt::format("bounds must be finite with minimum < maximum on every axis; got ({}, {}, {}) to "
+                                        "({}, {}, {})",
+                                        boundsMin.x, boundsMin.y, boundsMin.z, boundsMax.x, boundsMax.y, boundsMax.z));
 }
 
 void checkMemory(const SourceLocation& where, std::uint64_t neededBytes, std::size_t limitBytes) {

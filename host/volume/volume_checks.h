@@ -14,6 +14,9 @@ namespace parhelion {
 /// @throws InputError unless every axis has 1 to DensityGrid::kMaxResolution voxels.
 void checkResolution(const SourceLocation& where, glm::i64vec3 resolution);
 
+/// Whether the bounds are finite and boundsMin < boundsMax on every axis.
+bool areBounds(const glm::dvec3& boundsMin, const glm::dvec3& boundsMax);
+
 /// @throws InputError unless the bounds are finite and boundsMin < boundsMax on every axis.
 void checkBounds(const SourceLocation& where, const glm::dvec3& boundsMin, const glm::dvec3& boundsMax);
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/files.h"
 #include "support/scene_reading.h"
 #include "volume/volume_file.h"
 
@@ -50,6 +51,20 @@ TEST_F(SceneGrid, FollowsTheBoundsOfTheFileWhenAskedTo) {
     // Grid-local (0, 0, 0) and (1, 1, 1) are the corners (1, 2, 3) and (3, 3, 7), then doubled.
     EXPECT_EQ(toWorld * glm::dvec4(0, 0, 0, 1), glm::dvec4(2, 4, 6, 1));
     EXPECT_EQ(toWorld * glm::dvec4(1, 1, 1, 1), glm::dvec4(6, 6, 14, 1));
+}
+
+// Other programs leave them 0, and Mitsuba never looks.
+TEST_F(SceneGrid, BoundsThatAreNoBoxMatterOnlyWhenAskedFor) {
+    writeGrid("d.vol", 0.25f, 1.0f);
+    std::string bytes = readTextFile(folder_.path() / "d.vol");
+    bytes.replace(24, 24, 24, '\0');  // behind "VOL", version, type, resolution and channels
+    folder_.write("d.vol", bytes);
+    const std::string file = R"(<volume name="sigma_t" type="gridvolume"><string name="filename" value="d.vol"/>)";
+    const SceneDescription scene = read(file + "</volume>");
+    EXPECT_EQ(scene.media.at(0).density->volume.density.maximum(), 1.0f);
+    ASSERT_EQ(scene.notes.size(), 1u);
+    EXPECT_NE(scene.notes[0].find("bounding box is empty"), std::string::npos) << scene.notes[0];
+    EXPECT_THROW(read(file + "<boolean name=\"use_grid_bbox\" value=\"true\"/></volume>"), InputError);
 }
 
 TEST_F(SceneGrid, OfAlbedoMustStayInTheUnitInterval) {
