@@ -10,6 +10,7 @@
 #include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
+#include <OpenEXRConfig.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -145,7 +146,8 @@ Image readExr(const std::filesystem::path& file, unsigned maxSide) {
     } catch (const InputError&) {
         throw;
     } catch (const std::exception& error) {
-        throw InputError(where, fmt::format("must be an undamaged EXR file; {}", error.what()));
+        throw InputError(where, fmt::format("must be an undamaged EXR file, compressed in a way that OpenEXR {}.{} knows; {}",
+                                             OPENEXR_VERSION_MAJOR, OPENEXR_VERSION_MINOR, error.what()));
     }
 }
 

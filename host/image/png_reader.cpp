@@ -219,7 +219,6 @@ Bitmap readPngBitmap(const BitmapFile& file) {
         png_set_interlace_handling(png);
         png_read_update_info(png, info);
     });
-    noteMetadata(file, chunks, decoder, bitmap);
     std::vector<std::uint16_t> values(3 * bitmap.texels.size());
     std::vector<png_bytep> rows(bitmap.size.y);
     for (std::size_t y = 0; y < rows.size(); ++y)
@@ -228,8 +227,9 @@ Bitmap readPngBitmap(const BitmapFile& file) {
     decoder.attempt([&rows, rowBytes](png_structp png, png_infop info) {
         if (png_get_rowbytes(png, info) != rowBytes) png_error(png, "rows of an unexpected length");
         png_read_image(png, rows.data());
-        png_read_end(png, nullptr);
+        png_read_end(png, info);
     });
+    noteMetadata(file, chunks, decoder, bitmap);  // chunks of text and EXIF may come after the picture
     for (std::size_t i = 0; i < values.size(); ++i)
         bitmap.texels[i / 3][int(i % 3)] = file.linear(float(values[i]) / 65535.0f);
     return bitmap;

@@ -33,9 +33,11 @@ double readBlendWeight(const ReadContext& context, PropertyReader& reader) {
                     "\"weight\" cannot vary in space here; it takes a number or a <volume "
                     "type=\"constvolume\"> of one");
     constant.transform("to_world");  // Mitsuba looks the weight up without asking where
-    const double weight = requiredNumber(constant, "value", kUnitInterval);
+    const glm::dvec3 weight = constant.color("value", 1.0, kUnitInterval);
+    if (weight != glm::dvec3(weight.x))
+        reader.fail(constant.whereOf("value"), "\"weight\" cannot differ between channels");
     constant.finish();
-    return weight;
+    return weight.x;
 }
 
 /// Mitsuba's weight is that of the second function.

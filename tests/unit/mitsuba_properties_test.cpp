@@ -229,6 +229,14 @@ TEST(MitsubaPropertyValues, ConstantVolumeIsAWeight) {
     EXPECT_EQ(byVolume.lobeWeight, 0.75);
     EXPECT_EQ(byVolume.lobeWeight, byNumber.lobeWeight);
     EXPECT_EQ(byVolume.g, byNumber.g);
+    // 1 unless given; of a colour, its value.
+    const auto weightOf = [&](const std::string& value) {
+        const std::string weight = "<volume name=\"weight\" type=\"constvolume\">" + value + "</volume></phase>";
+        return 1.0 - readText(mediumOf(blend + weight)).media[0].phase.lobeWeight;
+    };
+    EXPECT_EQ(weightOf(""), 1.0);
+    EXPECT_EQ(weightOf("<rgb name=\"value\" value=\"0.25\"/>"), 0.25);
+    EXPECT_THROW(weightOf("<rgb name=\"value\" value=\"0.25 0.5 0.5\"/>"), InputError);
 }
 
 TEST(MitsubaPropertyValues, OlderNameOfTheBorderIsRead) {

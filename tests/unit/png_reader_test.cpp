@@ -123,6 +123,9 @@ TEST(PngNotes, TellOfWhatIsNotRead) {
         const std::string notes = notesWith(pngChunk("eXIf", exifData(6, isBigEndian)));
         EXPECT_NE(notes.find("EXIF orientation, 6, has no effect"), std::string::npos) << notes;
         EXPECT_EQ(notesWith(pngChunk("eXIf", exifData(1, isBigEndian))), "");
+        std::string behind = file;  // the picture's data, before the end's twelve bytes
+        behind.insert(behind.size() - 12, pngChunk("eXIf", exifData(6, isBigEndian)));
+        EXPECT_NE(notesOf(bitmapOf(behind)).find("EXIF orientation, 6"), std::string::npos);
     }
     std::string text = pngChunk("tEXt", std::string("Title\0a", 7));
     EXPECT_EQ(notesWith(text), "");
