@@ -100,6 +100,7 @@ void checkMediumBoundary(PlacedShape& placed) {
                                           "unbounded media are not supported; remove it");
     if (placed.kind != PlacedShape::Kind::Mesh) return;
     placed.notes = closeMesh(placed);
+    boundVertices(placed);  // some may have been moved
     std::ranges::move(checkInterior(placed), std::back_inserter(placed.notes));
 }
 

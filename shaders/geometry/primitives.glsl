@@ -7,22 +7,26 @@
 
 const vec2 kEmptyInterval = vec2(1.0, -1.0);
 
-// Distance along the ray, or -1 where it misses or runs in the plane.
-float intersectQuad(Quad quad, vec3 origin, vec3 direction) {
-    vec3 toCorner = quad.corner - origin;
-    float t = dot(toCorner, quad.normal) / dot(direction, quad.normal);
-    vec3 p = direction * t - toCorner;
-    float u = dot(quad.uFromWorld, p);
-    float v = dot(quad.vFromWorld, p);
-    bool inside = min(u, v) >= 0.0 && max(u, v) <= 1.0;  // false for the NaN of a ray in the plane
-    return inside ? t : -1.0;
-}
-
 // Bound of the error of intersectQuad's t, where the origin itself is uncertain by `slack`: 5 roundings of the distance
 // from the plane, over the cosine.
 float quadDistanceError(Quad quad, vec3 origin, vec3 direction, float slack) {
     float depth = 2.98023224e-7 * dot(abs(quad.normal), abs(quad.corner - origin)) + slack;
     return depth / abs(dot(direction, quad.normal));
+}
+
+// Distance along the ray, or -1 where it misses or runs in the plane. What misses by no more than u and v may be off by is
+// a hit: no ray slips between quads that share an edge (H47).
+float intersectQuad(Quad quad, vec3 origin, vec3 direction) {
+    vec3 toCorner = quad.corner - origin;
+    float t = dot(toCorner, quad.normal) / dot(direction, quad.normal);
+    vec3 way = direction * t, p = way - toCorner;
+    vec2 uv = vec2(dot(quad.uFromWorld, p), dot(quad.vFromWorld, p));
+    vec3 terms = abs(way) + abs(toCorner) + abs(quad.corner);
+    vec2 ahead = abs(vec2(dot(quad.uFromWorld, direction), dot(quad.vFromWorld, direction)));
+    vec2 error = 2.98023224e-7 * vec2(dot(abs(quad.uFromWorld), terms), dot(abs(quad.vFromWorld), terms)) +
+                 quadDistanceError(quad, origin, direction, 0.0) * ahead;
+    vec2 beyond = max(-uv, uv - 1.0) - error;  // NaN for a ray in the plane
+    return max(beyond.x, beyond.y) <= 0.0 && abs(t) < kInfinity ? t : -1.0;
 }
 
 // Entry and exit distance, either sign; kEmptyInterval where the line misses. The discriminant comes

@@ -77,14 +77,15 @@ vec2 quadUv(Quad quad, vec3 position) {
 
 // Shader only: within surfaceAt in the reference.
 Surface quadSurface(Quad quad, vec3 position) {
-    vec2 uv = quadUv(quad, position), rest = min(uv, 1.0 - uv);
+    vec2 computed = quadUv(quad, position), uv = clamp(computed, 0.0, 1.0), rest = min(uv, 1.0 - uv);
     vec2 lengths = vec2(length(quad.edgeU), length(quad.edgeV)), size = kPositionError * (maxComponent(abs(position)) + lengths);
-    vec2 middle = mix(vec2(0.0), min(vec2(0.5), size / lengths), lessThan(rest * lengths, size)) * (0.5 - uv);
-    position += middle.x * quad.edgeU + middle.y * quad.edgeV;
+    vec2 move = mix(vec2(0.0), min(vec2(0.5), 4.0 * size / lengths), lessThan(rest * lengths, size)) * (0.5 - uv);
+    vec2 shift = uv - computed + move;
+    position += shift.x * quad.edgeU + shift.y * quad.edgeV;
     vec3 p = position - quad.corner;
     float slack = abs(dot(quad.normal, p)) + 2.98023224e-7 * dot(abs(quad.normal), abs(p));  // 5 roundings
     Face face = Face(quad.corner, quad.corner + quad.edgeU, quad.corner + quad.edgeV);
-    return Surface(position, quad.normal, quad.normal, 0.0, quad.shape, uv, slack, face, uv + middle);
+    return Surface(position, quad.normal, quad.normal, 0.0, quad.shape, uv, slack, face, uv + move);
 }
 
 // Shader only: the reference's members have defaults.

@@ -13,19 +13,6 @@ struct Interval {
     Real t0, t1;
 };
 
-/// Distance along the ray to the parallelogram, or nothing. May be negative.
-template <typename Real>
-std::optional<Real> intersectQuad(const Quad<Real>& quad, const Vec3<Real>& origin, const Vec3<Real>& direction) {
-    const Vec3<Real> toCorner = quad.corner - origin;
-    const Real t = glm::dot(quad.normal, toCorner) / glm::dot(quad.normal, direction);
-    const Vec3<Real> p = t * direction - toCorner;
-    const Real u = glm::dot(quad.uFromWorld, p);
-    const Real v = glm::dot(quad.vFromWorld, p);
-    // A parallel ray has t infinite or NaN and fails the comparisons.
-    if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1)) return std::nullopt;
-    return t;
-}
-
 /// Bound on the error of intersectQuad: the distance from the plane has 5 roundings of its terms.
 ///
 /// @param slack  uncertainty of the origin.
@@ -34,6 +21,28 @@ Real quadDistanceError(const Quad<Real>& quad, const Vec3<Real>& origin, const V
     const Real terms = glm::dot(glm::abs(quad.normal), glm::abs(quad.corner - origin));
     const Real distance = Real(2.5) * std::numeric_limits<Real>::epsilon() * terms;
     return (distance + slack) / std::abs(glm::dot(quad.normal, direction));
+}
+
+/// Distance along the ray to the parallelogram, or nothing. May be negative.
+///
+/// A point counts as on it if that is within the rounding of its coordinates: 5 of the terms they are summed from, and
+/// the error of t. Rays do not slip between parallelograms that share an edge (H47).
+template <typename Real>
+std::optional<Real> intersectQuad(const Quad<Real>& quad, const Vec3<Real>& origin, const Vec3<Real>& direction) {
+    const Vec3<Real> toCorner = quad.corner - origin;
+    const Real t = glm::dot(quad.normal, toCorner) / glm::dot(quad.normal, direction);
+    if (!std::isfinite(t)) return std::nullopt;  // parallel
+    const Vec3<Real> p = t * direction - toCorner;
+    const Vec3<Real> terms = glm::abs(t * direction) + glm::abs(toCorner) + glm::abs(quad.corner);
+    const Real errorOfT = quadDistanceError(quad, origin, direction, Real(0));
+    const auto isWithin = [&](const Vec3<Real>& fromWorld) {
+        const Real at = glm::dot(fromWorld, p);
+        const Real error = Real(2.5) * std::numeric_limits<Real>::epsilon() * glm::dot(glm::abs(fromWorld), terms) +
+                           errorOfT * std::abs(glm::dot(fromWorld, direction));
+        return at >= -error && at <= 1 + error;
+    };
+    if (!isWithin(quad.uFromWorld) || !isWithin(quad.vFromWorld)) return std::nullopt;
+    return t;
 }
 
 /// The discriminant from the perpendicular component: nothing cancels for far spheres.

@@ -146,17 +146,18 @@ Surface<Real> boxSurface(const SceneView<Real>& scene, const Box<Real>& box, con
 template <typename Real>
 Surface<Real> quadSurface(const Quad<Real>& quad, const Vec3<Real>& position) {
     const Vec3<Real> p = position - quad.corner;
-    const Real u = glm::dot(quad.uFromWorld, p), v = glm::dot(quad.vFromWorld, p);
-    const Real besideU = std::min(u, 1 - u), besideV = std::min(v, 1 - v);
-    // Within its own rounding of an edge, the point is moved towards the middle.
-    const auto move = [&](Real at, Real beside, Real length) {
+    const Vec2<Real> computed(glm::dot(quad.uFromWorld, p), glm::dot(quad.vFromWorld, p));
+    const Vec2<Real> uv = glm::clamp(computed, Real(0), Real(1));
+    // Its own rounding or less from an edge, the point is moved twice as far off it.
+    const auto moved = [&](Real at, Real length) {
         const Real rounding = kGamma7<Real> * (maxComponent(glm::abs(position)) + length);
-        return beside * length < rounding ? std::min(Real(0.5), rounding / length) * (Real(0.5) - at) : Real(0);
+        if (std::min(at, 1 - at) * length >= rounding) return at;
+        return at + std::min(Real(0.5), 4 * rounding / length) * (Real(0.5) - at);
     };
-    const Real moveU = move(u, besideU, glm::length(quad.edgeU)), moveV = move(v, besideV, glm::length(quad.edgeV));
-    const Vec3<Real> moved = position + moveU * quad.edgeU + moveV * quad.edgeV;
-    Surface<Real> surface{moved, quad.normal, quad.normal, 0, {u, v}};
-    surface.weights = {u + moveU, v + moveV};
+    const Vec2<Real> to(moved(uv.x, glm::length(quad.edgeU)), moved(uv.y, glm::length(quad.edgeV)));
+    const Vec3<Real> onto = position + (to.x - computed.x) * quad.edgeU + (to.y - computed.y) * quad.edgeV;
+    Surface<Real> surface{onto, quad.normal, quad.normal, 0, uv};
+    surface.weights = to;
     surface.slack = std::abs(glm::dot(quad.normal, p)) +
                     Real(2.5) * std::numeric_limits<Real>::epsilon() * glm::dot(glm::abs(quad.normal), glm::abs(p));
     return surface;
