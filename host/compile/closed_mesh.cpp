@@ -58,8 +58,8 @@ private:
         throw InputError(source().where, fmt::format("{}: {}", nameOf(source()), text));
     }
 
-    /// What six written digits, or single precision, leave open, in the mesh's own space; of a mesh that is far from its
-    /// own origin not more than what is small against the mesh.
+    /// What six written digits, or single precision, leave open, in the mesh's own space; of a mesh that is far from
+    /// its own origin not more than what is small against the mesh.
     double tolerance() const {
         glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
         for (const glm::dvec3& p : source().mesh.positions) {
@@ -67,7 +67,8 @@ private:
             upper = glm::max(upper, p);
         }
         const glm::dvec3 largest = glm::max(glm::abs(lower), glm::abs(upper)), size = upper - lower;
-        return std::min(0x1p-18 * std::max({largest.x, largest.y, largest.z}), 0x1p-10 * std::max({size.x, size.y, size.z}));
+        return std::min(0x1p-18 * std::max({largest.x, largest.y, largest.z}),
+                        0x1p-10 * std::max({size.x, size.y, size.z}));
     }
 
     std::vector<EdgeUse> usesWhere(bool (*wanted)(const EdgeUse&)) const {

@@ -21,7 +21,8 @@ struct Nesting {
 /// Works out how the shapes that bound media lie within one another, before any is dropped.
 ///
 /// @param media  for names in messages.
-/// @throws InputError for more than kMaxBoundaries medium boundaries, for media that overlap without one lying within the other, for a nested medium whose `exterior`
+/// @throws InputError for more than kMaxBoundaries medium boundaries, for media that overlap without one lying within
+/// the other, for a nested medium whose `exterior`
 ///         does not name the one around it, and for an `exterior` that no enclosing shape provides.
 Nesting resolveNesting(std::span<const PlacedShape> shapes, std::span<const MediumDescription> media);
 

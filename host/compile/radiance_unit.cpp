@@ -8,8 +8,8 @@ namespace parhelion {
 
 namespace {
 
-/// What a point light may be brighter by, near it, than at the scene's far end. Even 2^-40 of the unit squares to 2^-80,
-/// far from what floats lose (2^-126).
+/// What a point light may be brighter by, near it, than at the scene's far end. Even 2^-40 of the unit squares to
+/// 2^-80, far from what floats lose (2^-126).
 constexpr double kNearerBy = 0x1p40;
 
 double largestOf(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }

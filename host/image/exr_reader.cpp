@@ -146,8 +146,9 @@ Image readExr(const std::filesystem::path& file, unsigned maxSide) {
     } catch (const InputError&) {
         throw;
     } catch (const std::exception& error) {
-        throw InputError(where, fmt::format("must be an undamaged EXR file, compressed in a way that OpenEXR {}.{} knows; {}",
-                                             OPENEXR_VERSION_MAJOR, OPENEXR_VERSION_MINOR, error.what()));
+        throw InputError(where,
+                         fmt::format("must be an undamaged EXR file, compressed in a way that OpenEXR {}.{} knows; {}",
+                                     OPENEXR_VERSION_MAJOR, OPENEXR_VERSION_MINOR, error.what()));
     }
 }
 

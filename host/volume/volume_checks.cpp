@@ -31,9 +31,10 @@ bool areBounds(const glm::dvec3& boundsMin, const glm::dvec3& boundsMax) {
 
 void checkBounds(const SourceLocation& where, const glm::dvec3& boundsMin, const glm::dvec3& boundsMax) {
     if (areBounds(boundsMin, boundsMax)) return;
-    throw InputError(where, fmt::format("bounds must be finite with minimum < maximum on every axis; got ({}, {}, {}) to "
-                                        "({}, {}, {})",
-                                        boundsMin.x, boundsMin.y, boundsMin.z, boundsMax.x, boundsMax.y, boundsMax.z));
+    throw InputError(where,
+                     fmt::format("bounds must be finite with minimum < maximum on every axis; got ({}, {}, {}) to "
+                                 "({}, {}, {})",
+                                 boundsMin.x, boundsMin.y, boundsMin.z, boundsMax.x, boundsMax.y, boundsMax.z));
 }
 
 void checkMemory(const SourceLocation& where, std::uint64_t neededBytes, std::size_t limitBytes) {

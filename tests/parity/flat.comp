@@ -16,16 +16,6 @@ void meetNeighbour() {
     probeOutput(0u, vec4(isFlat, aside, 0.0, 0.0));
 }
 
-// Planes of a face, and the distances of its corners and of a point.
-void measure() {
-    Face face = Face(probeInput(0u).xyz, probeInput(1u).xyz, probeInput(2u).xyz);
-    vec3 point = probeInput(3u).xyz;
-    Plane plane = planeOf(face);
-    probeOutput(0u, vec4(plane.at, plane.spread));
-    probeOutput(1u, vec4(plane.normal, dot(planeDistance(plane, face, face.b), vec2(1.0))));
-    probeOutput(2u, vec4(planeDistance(plane, face, point), startDistance(plane, face, false, point)));
-}
-
 // A ray along z with a memory (idle, idleT, passed, tMin), inside c.y, crosses a boundary of a shape (with its exterior,
 // primitive) at c.z; its normal's z is c.w.
 void cross_() {
@@ -45,5 +35,4 @@ void probeItem() {
     loadScene();
     if (probeFunction == 0u) meetNeighbour();
     if (probeFunction == 1u) cross_();
-    if (probeFunction == 2u) measure();
 }

@@ -17,7 +17,7 @@ using test::Parity;
 using test::Stress;
 
 const char* const kShader = "parity/flat.comp";
-enum Function : std::uint32_t { kAside, kCross, kMeasure };
+enum Function : std::uint32_t { kAside, kCross };
 
 /// Quads and triangles about the z axis, folded at all angles against the plane that a ray leaves.
 test::HandScene foldedFaces(float scale) {
@@ -125,7 +125,7 @@ TEST(FlatParity, DistancesAreWithinTheirBounds) {
         inputs.emplace_back(a + 0.3f * (b - a) + 1e-3f * stress.direction(), 0);
     }
     const test::HandScene built = foldedFaces(1);
-    const auto outputs = test::SceneProbe(built.scene).run(kShader, kMeasure, inputs, 4, 3);
+    const auto outputs = test::SceneProbe(built.scene).run("parity/plane.comp", 0, inputs, 4, 3);
     Parity parity("geometry/flat", "planeOf planeDistance startDistance", 1);
     for (std::size_t i = 0; i < inputs.size() / 4; ++i) {
         const glm::dvec3 a(inputs[4 * i]), b(inputs[4 * i + 1]), c(inputs[4 * i + 2]), point(inputs[4 * i + 3]);
@@ -133,9 +133,10 @@ TEST(FlatParity, DistancesAreWithinTheirBounds) {
         const auto plane = reference::planeOf(face);
         // Which corner has the widest angle may be a tie: then either is right, and the spread is the same.
         const bool isCorner = face.hasCorner(glm::dvec3(outputs[3 * i]));
-        EXPECT_TRUE(isCorner && glm::distance(glm::dvec3(outputs[3 * i + 1]) * glm::sign(glm::dot(
-                                     glm::dvec3(outputs[3 * i + 1]), plane.normal)), plane.normal) <
-                                    5e-7 * plane.spread) << i;
+        EXPECT_TRUE(isCorner && glm::distance(glm::dvec3(outputs[3 * i + 1]) *
+                                                  glm::sign(glm::dot(glm::dvec3(outputs[3 * i + 1]), plane.normal)),
+                                              plane.normal) < 5e-7 * plane.spread)
+            << i;
         EXPECT_NEAR(outputs[3 * i].w / plane.spread, 1, 1e-6 * plane.spread) << i;
         EXPECT_TRUE(parity.equal(outputs[3 * i + 1].w, 0.0f)) << i;
         const double exact = reference::planeDistance(plane, face, point).value;

@@ -233,6 +233,18 @@ TEST(TriangleParity, WhatIsStillAheadAgrees) {
     }
 }
 
+/// A ray that meets a triangle of this size, far from the origin or not, from within it or from afar.
+Case meeting(Stress& stress, int i, float size) {
+    const float far = i % 2 == 0 ? 0.0f : 100 * size;
+    const glm::vec3 shift(far, 0.3f * far, -far);
+    Case c{glm::vec3(0), stress.direction(), shift + stress.point(size), shift + stress.point(size),
+           shift + stress.point(size)};
+    const float s = stress.between(0, 1), t = stress.between(0, 1);
+    c.origin = c.a + (c.b - c.a) * s * (1 - t) + (c.c - c.a) * s * t;
+    if (i % 4 == 1) c.origin -= 300 * size * c.direction;
+    return c;
+}
+
 // The bound holds: distances in float, of rays that start on the triangle's plane give or take `slack` or far from it,
 // are off by less.
 TEST(TriangleParity, DistancesAreWithinTheirErrorBound) {
@@ -240,14 +252,8 @@ TEST(TriangleParity, DistancesAreWithinTheirErrorBound) {
     std::vector<glm::vec4> inputs, bounds;
     Stress stress(16);
     for (int i = 0; i < 40'000; ++i) {
-        const float size = stress.magnitude(1e-3f, 1e3f), far = i % 2 == 0 ? 0.0f : 100 * size;
-        const glm::vec3 shift(far, 0.3f * far, -far);
-        Case c{glm::vec3(0), stress.direction(), shift + stress.point(size), shift + stress.point(size),
-               shift + stress.point(size)};
-        const float s = stress.between(0, 1), t = stress.between(0, 1);
-        c.origin = c.a + (c.b - c.a) * s * (1 - t) + (c.c - c.a) * s * t;
-        if (i % 4 == 1) c.origin -= 300 * size * c.direction;
-        cases.push_back(c);
+        const float size = stress.magnitude(1e-3f, 1e3f);
+        const Case c = cases.emplace_back(meeting(stress, i, size));
         const float slack = i % 3 == 0 ? 0.0f : 1e-6f * size;
         inputs.emplace_back(c.origin, slack);
         for (const glm::vec3& v : {c.direction, c.a, c.b, c.c}) inputs.emplace_back(v, 0);

@@ -45,7 +45,8 @@ TEST(MediumNesting, MoreBoundariesThanTheDeviceCanNumberAreRefusedWithAPlace) {
         shapes.push_back(boundary(sphere("s", {3.0 * i, 0, 0}, 1), 0));
     shapes.back().where.line = 99;
     const std::string message = inputErrorOf(sceneWith(shapes));
-    EXPECT_TRUE(contains(message, ":99:") && contains(message, "at most 16383 medium boundaries; got 16384")) << message;
+    EXPECT_TRUE(contains(message, ":99:") && contains(message, "at most 16383 medium boundaries; got 16384"))
+        << message;
 }
 
 TEST(MediumNesting, OfTwoProvidersTheInnerOneWins) {

@@ -220,23 +220,16 @@ TEST(MitsubaPropertyNotes, NoneForATimeoutThatNeverComes) {
 }
 
 TEST(MitsubaPropertyValues, ConstantVolumeIsAWeight) {
-    const std::string blend = "<phase type=\"blendphase\"><phase type=\"hg\"/><phase type=\"isotropic\"/>";
-    const std::string volume =
-        "<volume name=\"weight\" type=\"constvolume\">" + floating("value", "0.25") + "</volume>";
-    const PhaseDescription byNumber =
-        readText(mediumOf(blend + floating("weight", "0.25") + "</phase>")).media[0].phase;
-    const PhaseDescription byVolume = readText(mediumOf(blend + volume + "</phase>")).media[0].phase;
-    EXPECT_EQ(byVolume.lobeWeight, 0.75);
-    EXPECT_EQ(byVolume.lobeWeight, byNumber.lobeWeight);
-    EXPECT_EQ(byVolume.g, byNumber.g);
-    // 1 unless given; of a colour, its value.
-    const auto weightOf = [&](const std::string& value) {
-        const std::string weight = "<volume name=\"weight\" type=\"constvolume\">" + value + "</volume></phase>";
-        return 1.0 - readText(mediumOf(blend + weight)).media[0].phase.lobeWeight;
+    const auto weightOf = [](const std::string& weight) {  // of the second function
+        const std::string blend = "<phase type=\"blendphase\"><phase type=\"hg\"/><phase type=\"isotropic\"/>";
+        return 1.0 - readText(mediumOf(blend + weight + "</phase>")).media[0].phase.lobeWeight;
     };
-    EXPECT_EQ(weightOf(""), 1.0);
-    EXPECT_EQ(weightOf("<rgb name=\"value\" value=\"0.25\"/>"), 0.25);
-    EXPECT_THROW(weightOf("<rgb name=\"value\" value=\"0.25 0.5 0.5\"/>"), InputError);
+    const std::string volume = "<volume name=\"weight\" type=\"constvolume\">", end = "</volume>";
+    EXPECT_EQ(weightOf(floating("weight", "0.25")), 0.25);
+    EXPECT_EQ(weightOf(volume + floating("value", "0.25") + end), 0.25);
+    EXPECT_EQ(weightOf(volume + "<rgb name=\"value\" value=\"0.25\"/>" + end), 0.25);
+    EXPECT_EQ(weightOf(volume + end), 1.0);
+    EXPECT_THROW(weightOf(volume + "<rgb name=\"value\" value=\"0.25 0.5 0.5\"/>" + end), InputError);
 }
 
 TEST(MitsubaPropertyValues, OlderNameOfTheBorderIsRead) {

@@ -46,8 +46,8 @@ struct Plane {
     Real spread;            ///< how many times a rounding of its edges the normal's error is
 };
 
-/// The plane of a face, taken from the corner opposite to the longest edge. The cross product of a long edge of a sliver
-/// with another long one would have few digits.
+/// The plane of a face, taken from the corner opposite to the longest edge. The cross product of a long edge of a
+/// sliver with another long one would have few digits.
 template <typename Real>
 Plane<Real> planeOf(const Face<Real>& face) {
     const auto& c = face.corners;
@@ -70,8 +70,11 @@ template <typename Real>
 struct Distance {
     Real value = 0, error = 0;
 
+    /// Reference only: spelt out where the shader needs it, as the next two.
     bool isAbove() const { return value > error; }
+    /// Reference only: as above.
     bool isBelow() const { return value < -error; }
+    /// Reference only: as above.
     bool isDecided() const { return isAbove() || isBelow(); }
 };
 
@@ -100,8 +103,8 @@ Distance<Real> startDistance(const Plane<Real>& plane, const Face<Real>& face, c
     return {glm::dot(plane.normal, offset), kFlatError<Real> * plane.spread * glm::length(offset)};
 }
 
-/// Whether the ray goes on past the opaque flat primitive it has hit: one that it starts in within rounding and does not
-/// go into.
+/// Whether the ray goes on past the opaque flat primitive it has hit: one that it starts in within rounding and does
+/// not go into.
 template <typename Real>
 bool leavesAside(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit) {
     if (!hit.near) return false;
