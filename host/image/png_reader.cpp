@@ -42,6 +42,8 @@ void readChunk(const BitmapFile& file, std::string_view type, std::size_t data, 
             "must be a PNG of the standard; got one that Apple's tools rewrote for iPhones (chunk CgBI: red and blue "
             "swapped, alpha multiplied in). `sips` or `pngcrush -revert-iphone-optimizations` turn it back");
     if (type == "IHDR" && length >= 13) {
+        // libpng goes by the first: buffers of the last one's size would be too small.
+        if (chunks.width > 0) file.fail("must have one header (chunk IHDR); got a second one");
         constexpr std::array<unsigned, 7> kChannels{1, 1, 3, 1, 2, 1, 4};  // by colour type
         chunks.width = bigEndian(file, data);
         chunks.height = bigEndian(file, data + 4);
@@ -90,6 +92,9 @@ public:
         info_ = png_ ? png_create_info_struct(png_) : nullptr;
         if (!info_) throw RuntimeFailure("libpng: out of memory");
         png_set_user_limits(png_, kMaxBitmapSize, kMaxBitmapSize);
+        // Of texts, which nothing here reads, and profiles: 8 MB each and 1000 of them unless told otherwise.
+        png_set_chunk_malloc_max(png_, 4u << 20);
+        png_set_chunk_cache_max(png_, 16);
         png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_WARN_DISCARD);
         png_set_read_fn(png_, this, &PngDecoder::onRead);
     }
@@ -225,7 +230,8 @@ Bitmap readPngBitmap(const BitmapFile& file) {
         rows[y] = reinterpret_cast<png_bytep>(values.data() + 3 * y * bitmap.size.x);
     const std::size_t rowBytes = std::size_t(bitmap.size.x) * 3 * sizeof(std::uint16_t);
     decoder.attempt([&rows, rowBytes](png_structp png, png_infop info) {
-        if (png_get_rowbytes(png, info) != rowBytes) png_error(png, "rows of an unexpected length");
+        if (png_get_rowbytes(png, info) != rowBytes || png_get_image_height(png, info) != rows.size())
+            png_error(png, "a size that its header does not say");
         png_read_image(png, rows.data());
         png_read_end(png, info);
     });

@@ -165,6 +165,12 @@ TEST(PngDamage, OfSizesIsRefusedBeforeThereIsRoomForThem) {
     EXPECT_NE(bitmapError(sized(30000, 30000)).find("40 bytes of pixels cannot hold 30000 x 30000"), std::string::npos);
     EXPECT_NE(bitmapError(sized(70000, 1)).find("cannot hold 70000 x 1"), std::string::npos);
     EXPECT_NE(bitmapError(sized(0, 1)).find("at least one texel"), std::string::npos);
+    // Rows for the second header's size, and the first one's pixels.
+    const std::string first = pngFile({13, 200, 8, 0, false, std::vector<unsigned>(13 * 200, 7)});
+    const std::string second = pngChunk("IHDR", number(13) + number(1) + std::string("\x08\x00\x00\x00\x00", 5));
+    const std::size_t end = first.size() - 12;
+    EXPECT_NE(bitmapError(first.substr(0, end) + second + first.substr(end)).find("got a second one"),
+              std::string::npos);
 }
 
 // What Apple's tools make of a PNG: a chunk before all others, pixels without a checksum of their own.
