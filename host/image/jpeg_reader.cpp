@@ -121,6 +121,8 @@ void noteMarkers(const BitmapFile& file, JpegDecoder& decoder, Bitmap& bitmap) {
     if (profile && info.num_components == 3 && file.encoding == BitmapEncoding::kSrgb &&
         !namesSrgb(std::as_bytes(std::span(profile, size))))
         file.note(bitmap, "its colour profile has no effect: colours are taken for sRGB, as in Mitsuba");
+    if (info.arith_code)
+        file.note(bitmap, "whether its arithmetic-coded picture is whole cannot be told: such codes go on without end");
     if (info.num_components == 4)
         file.note(bitmap, "inks (CMYK) are multiplied to red, green and blue; a colour profile has no effect");
 }

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace parhelion {
@@ -93,7 +94,8 @@ private:
         if (name == "EXPOSURE") multiplyDivisor(name, value, 1);
         if (name == "COLORCORR") multiplyDivisor(name, value, 3);
         if (name == "PRIMARIES") readPrimaries(value);
-        if ((name == "PIXASPECT" || name == "GAMMA") && numberOf(value) != 1.0)
+        bool& isNoted = name == "GAMMA" ? isGammaNoted_ : isAspectNoted_;
+        if ((name == "PIXASPECT" || name == "GAMMA") && numberOf(value) != 1.0 && !std::exchange(isNoted, true))
             note(line_, fmt::format("{} has no effect", quoted(trimmed(line))));
     }
 
@@ -184,6 +186,7 @@ private:
     std::string_view text_;
     std::size_t at_ = 0;
     int line_ = 0;
+    bool isGammaNoted_ = false, isAspectNoted_ = false;  ///< the first such line stands for all
     std::string_view format_;
     int divisorLine_ = 0;
     RadianceHeader header_;
