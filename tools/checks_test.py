@@ -226,9 +226,10 @@ class Checks(unittest.TestCase):
             command = [sys.executable, TOOLS / "programs_of.py", *options]
             return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
         self.assertEqual(programs("-R", "^VdbWriter"), ["parhelion", "unit_tests"])
-        self.assertEqual(programs("--tests-regex=OnTheDevice/Slabs.Absorb"), ["parhelion", "statistical_tests"])
+        self.assertEqual(programs("--tests-regex", "OnTheDevice/Slabs.Absorb"), ["parhelion", "statistical_tests"])
         self.assertEqual(programs("-L", "parity"), ["parhelion", "parity_tests"])
-        self.assertEqual(programs("-RStructure"), ["parhelion"])
+        self.assertEqual(programs("-R", "Structure"), ["parhelion"])
+        self.assertIn("robustness_tests", programs("-R", "PointStars"))  # by the name of a parameter
         self.assertEqual(programs("--label-exclude", "nightly", "-R", "SlabTable"), [])
         self.assertEqual(programs("--label-exclude", "nightly"), [])  # everything
 

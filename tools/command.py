@@ -31,6 +31,8 @@ def fail(message, code=2):
 
 def run(main):
     """Exits with what main() returns: 0 fine, 1 what the tool is to find, 2 bad input, 3 the system, 130 Ctrl-C."""
+    sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a sign must not end a tool
+    sys.stderr.reconfigure(errors="replace")
     try:
         code = main()
         sys.stdout.flush()

@@ -17,14 +17,10 @@ OTHERS = re.compile(r"add_test\(NAME ([\w.]+)|^structure_test\((\w+)", re.MULTIL
 
 
 def option(arguments, short, long):
-    """The value of an option in one of its four forms, or None."""
+    """The value of an option, or None."""
     for argument, following in zip(arguments, arguments[1:] + [None]):
         if argument in (short, long):
             return following
-        if argument.startswith(long + "="):
-            return argument[len(long) + 1:]
-        if argument.startswith(short) and not argument.startswith(("--", "-LE")):
-            return argument[len(short):]
     return None
 
 
@@ -49,13 +45,19 @@ def is_chosen(pattern, name):
     return re.search(stem, name) is not None
 
 
+def may_name_a_parameter(pattern, file):
+    """Whether a word in quotes, as parameters are named by, is matched: one program too many is no harm."""
+    text = file.read_text()
+    return INSTANCE.search(text) and any(re.search(pattern, word) for word in re.findall(r'"(\w+)"', text))
+
+
 def chosen(pattern, label, excluded):
     targets = set()
     for file in sorted((ROOT / "tests").glob("*/*_test.cpp")):
         folder = file.parent.name
         if label and not re.search(label, folder) or excluded and re.search(excluded, folder):
             continue
-        if not pattern or any(is_chosen(pattern, name) for name in names(file)):
+        if not pattern or any(is_chosen(pattern, name) for name in names(file)) or may_name_a_parameter(pattern, file):
             targets |= {"parhelion", folder + "_tests"}
     for test, property in OTHERS.findall((ROOT / "tests" / "structure.cmake").read_text()):
         if pattern and re.search(pattern, test or "Structure." + property):
