@@ -1,5 +1,5 @@
 // Which grid of a .vdb or .nvdb file is read, by name.
-#define NANOVDB_USE_BLOSC  // as in vdb_write.cpp: one definition of the templates
+#define NANOVDB_USE_BLOSC  // as in nvdb_write.cpp: one definition of the templates
 #define NANOVDB_USE_ZIP
 
 #include <gtest/gtest.h>

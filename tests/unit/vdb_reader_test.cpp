@@ -1,5 +1,5 @@
 // Our readers of .vdb and .nvdb files against the libraries that wrote them.
-#define NANOVDB_USE_BLOSC  // as in vdb_write.cpp: one definition of the templates
+#define NANOVDB_USE_BLOSC  // as in nvdb_write.cpp: one definition of the templates
 #define NANOVDB_USE_ZIP
 
 #include <gtest/gtest.h>
