@@ -58,6 +58,26 @@ void renderFeatures(const SceneView<Real>& scene, const RenderSettings& settings
     film.featureSamples = settings.featureSamples;
 }
 
+/// Adds samples [first, first + count) to every run of the control pixels.
+template <typename Real>
+void renderControls(const SceneView<Real>& scene, const RenderSettings& settings, std::uint64_t first,
+                    std::uint64_t count, Film& film) {
+    parallelFor(film.controls.size(), [&](std::size_t i) {
+        ControlPixel& control = film.controls[i];
+        const glm::uvec2 inCrop(control.pixel % film.crop.size.x, control.pixel / film.crop.size.x);
+        NoTrace trace;
+        Counters counters{};  // not the image's
+        for (std::uint32_t run = 0; run < shared::kControlRuns; ++run) {
+            const std::uint64_t ofRun = std::uint64_t{run + 1} << (32 + shared::kControlShift);
+            for (std::uint64_t s = first; s < first + count; ++s)
+                accumulate(control.runs[run],
+                           tracePath(scene, settings.quality, settings.seed, film.crop.offset + inCrop, s | ofRun,
+                                     counters, trace),
+                           s == settings.firstSample, counters);
+        }
+    });
+}
+
 /// Adds samples [first, first + count) to every pixel. False where patience was over before all were done.
 template <typename Real>
 bool renderPass(const SceneView<Real>& scene, const RenderSettings& settings, std::uint64_t first, std::uint64_t count,
@@ -68,11 +88,13 @@ bool renderPass(const SceneView<Real>& scene, const RenderSettings& settings, st
         shared::LayerPixel* layers = film.layers.empty() ? nullptr : &film.layers[index * film.depthLayers];
         for (std::uint64_t s = first; s < first + count && !isCutOff; ++s) {
             accumulate(film.pixels[index],
-                       tracePath(scene, settings.quality, settings.seed, pixel, s, counters, trace, layers), counters);
+                       tracePath(scene, settings.quality, settings.seed, pixel, s, counters, trace, layers),
+                       s == settings.firstSample, counters);
             if (patience.isOver()) isCutOff = true;
         }
     });
     if (isCutOff) return false;
+    renderControls(scene, settings, first, count, film);
     film.samples += count;
     return true;
 }
@@ -91,6 +113,9 @@ Film render(const CompiledScene& scene, const RenderSettings& settings, const st
     film.crop = {scene.cropOffset, scene.cropSize};
     film.radianceUnit = scene.radianceUnit;
     film.pixels.resize(std::size_t(scene.cropSize.x) * scene.cropSize.y);
+    film.stratified = settings.quality.sobol;
+    film.controlTileEdge = settings.controls.tileEdge;
+    for (const std::uint32_t pixel : settings.controls.pixels) film.controls.push_back({.pixel = pixel});
     film.features.resize(film.pixels.size());
     film.depthLayers = scene.constants.depthLayers;
     film.layers.resize(film.pixels.size() * film.depthLayers);

@@ -15,6 +15,12 @@ constexpr std::uint32_t kMaximumCrossings = 8192;  // medium boundaries in front
 
 std::uint32_t groupsCovering(std::uint32_t lanes) { return (lanes + kGroup - 1) / kGroup; }
 
+std::size_t mostLanes(std::span<const Batch> batches) {
+    std::size_t most = 0;
+    for (const Batch& batch : batches) most = std::max<std::size_t>(most, batch.laneCount());
+    return most;
+}
+
 std::vector<gpu::Binding> withBuffers(std::vector<gpu::Binding> bindings, std::initializer_list<gpu::Binding> more) {
     bindings.insert(bindings.end(), more);
     return bindings;
@@ -22,22 +28,40 @@ std::vector<gpu::Binding> withBuffers(std::vector<gpu::Binding> bindings, std::i
 
 }  // namespace
 
+std::vector<Batch> batchesOf(glm::uvec2 size, std::uint32_t lanes, std::span<const std::uint32_t> controlPixels) {
+    const std::uint32_t band = 8 * size.x, pixels = size.x * size.y;
+    const std::uint32_t step = std::max(1u, lanes / band) * band;
+    std::vector<Batch> batches;
+    std::uint32_t control = 0;
+    for (std::uint32_t first = 0; first < pixels; first += step) {
+        Batch batch{first, std::min(step, pixels - first), control, 0};
+        while (control < controlPixels.size() && controlPixels[control] < first + batch.pixelCount) ++control;
+        batch.controlCount = control - batch.firstControl;
+        batches.push_back(batch);
+    }
+    return batches;
+}
+
 PathTracePass::PathTracePass(gpu::Device& device, const DeviceScene& deviceScene, const gpu::Specialisation& constants,
-                             std::span<const Batch> batches, std::uint32_t depthLayers)
+                             std::span<const Batch> batches, std::span<const std::uint32_t> controlPixels,
+                             std::uint32_t depthLayers)
     : device_(device),
       scene_(deviceScene),
       batches_(batches.begin(), batches.end()),
       depthLayers_(depthLayers),
-      paths_(device.createBuffer(std::size_t{batches.front().laneCount} * shared::kPathStateWords * 4)),
+      paths_(device.createBuffer(mostLanes(batches) * shared::kPathStateWords * 4)),
       counterBuffer_(device.createBuffer(kCounterBytes)),
       argumentBuffer_(device.createBuffer(sizeof(shared::PathArguments))),
       pipeline_(device, gpu::shaderFolder() / "kernels/path_trace.comp", constants) {
-    for (const Batch& batch : batches_)
-        films_.push_back(device.createBuffer(std::size_t{batch.laneCount} * sizeof(shared::FilmPixel)));
+    for (const Batch& batch : batches_) {
+        films_.push_back(device.createBuffer(std::size_t{batch.laneCount()} * sizeof(shared::FilmPixel)));
+        controls_.push_back(device.createBuffer(batch.controlCount * sizeof(std::uint32_t)));
+        controls_.back().write(0, std::as_bytes(controlPixels.subspan(batch.firstControl, batch.controlCount)));
+    }
     if (depthLayers == 0) layers_.push_back(device.createBuffer(sizeof(shared::LayerPixel)));
     for (std::size_t i = 0; depthLayers > 0 && i < batches_.size(); ++i)
         layers_.push_back(
-            device.createBuffer(std::size_t{batches_[i].laneCount} * depthLayers * sizeof(shared::LayerPixel)));
+            device.createBuffer(std::size_t{batches_[i].laneCount()} * depthLayers * sizeof(shared::LayerPixel)));
     bindFilm(0);
 }
 
@@ -47,7 +71,8 @@ void PathTracePass::bindFilm(std::size_t batch) {
                                                    {.index = 13, .buffer = paths_.handle()},
                                                    {.index = 14, .buffer = counterBuffer_.handle()},
                                                    {.index = 26, .buffer = layers_[layer].handle()},
-                                                   {.index = 28, .buffer = argumentBuffer_.handle()}}));
+                                                   {.index = 28, .buffer = argumentBuffer_.handle()},
+                                                   {.index = 29, .buffer = controls_[batch].handle()}}));
     bound_ = batch;
 }
 
@@ -64,7 +89,7 @@ double PathTracePass::run(std::size_t batch, const shared::PathArguments& argume
 }
 
 std::span<const std::uint32_t> PathTracePass::samplesDone(std::size_t batch) {
-    const std::uint32_t lanes = batches_[batch].laneCount;
+    const std::uint32_t lanes = batches_[batch].laneCount();
     return paths_.as<std::uint32_t>().subspan(std::size_t{shared::kPathSampleWord} * lanes, lanes);
 }
 
@@ -100,7 +125,9 @@ std::vector<shared::FeaturePixel> renderFeatures(gpu::Device& device, const Comp
                                                   .loopBudget = kMaximumCrossings,
                                                   .restart = 0,
                                                   .pauseAt = 0,
-                                                  .stallLimit = 0};
+                                                  .stallLimit = 0,
+                                                  .imageLanes = lanes,
+                                                  .emptyFilm = 0};
             argumentBuffer.write(0, std::as_bytes(std::span(&arguments, 1)));
             device.submit([&](VkCommandBuffer commands) { pipeline.record(commands, {}, groupsCovering(lanes)); });
         }

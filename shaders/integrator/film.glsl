@@ -17,9 +17,23 @@ void addCompensated(inout vec3 high, inout vec3 low, vec3 value) {
 // Whether the film can hold a sample and its square: a number, and not too large.
 bool fitsFilm(vec3 radiance) { return all(lessThan(abs(radiance), vec3(kLargestSample))); }
 
-void accumulate(inout FilmPixel pixel, vec3 radiance) {
+// Rec. 709.
+float luminance(vec3 radiance) {
+    precise float sum = 0.2126 * radiance.x + 0.7152 * radiance.y;
+    precise float all = sum + 0.0722 * radiance.z;
+    return all;
+}
+
+// Adds a sample; `first`: to an empty pixel.
+void accumulate(inout FilmPixel pixel, vec3 radiance, bool first) {
     addCompensated(pixel.sumHigh, pixel.sumLow, radiance);
     addCompensated(pixel.squareHigh, pixel.squareLow, radiance * radiance);
+    float y = luminance(radiance);
+    pixel.pivot = first ? y : pixel.pivot;
+    precise float d = y - pixel.pivot, square = d * d, cube = square * d, fourth = square * square;
+    addCompensated(pixel.powerHigh, pixel.powerLow, vec3(d, square, cube));
+    pixel.fourth += fourth;
+    pixel.largest = max(pixel.largest, y);
 }
 
 #endif

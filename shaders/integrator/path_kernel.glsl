@@ -4,40 +4,17 @@
 #define INTEGRATOR_PATH_KERNEL_GLSL
 
 #include "integrator/counters.glsl"
+#include "integrator/lanes.glsl"
 #include "integrator/path_tracer.glsl"
 
-layout(set = 0, binding = 28, scalar) readonly buffer ArgumentBlock { PathArguments submitted; };
 layout(set = 0, binding = 12, scalar) buffer FilmBlock { FilmPixel film[]; };
-
-PathArguments arguments = submitted;
-
-// Shader only: groups are dealt out so that the first and the second half of the list, which the
-// driver gives to different threads, cost the same.
-uint laneIndex() {
-    uint groups = gl_NumWorkGroups.x, half_ = (groups + 1u) / 2u, group = gl_WorkGroupID.x;
-    uint dealt = group < half_ ? 2u * group : 2u * (group - half_) + 1u;
-    return dealt * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-}
-
-// Shader only: pixel of a lane, in the crop. Groups are 8 x 8 pixels, each run of 8 or 16 lanes a compact block,
-// where the crop's width allows it; rows otherwise.
-uvec2 lanePixel(uint lane) {
-    uint index = arguments.firstPixel + lane, width = arguments.cropSize.x;
-    uint perBand = 8u * width, band = index / perBand, rest = index % perBand;
-    uint rows = min(8u, arguments.cropSize.y - 8u * band);
-    uint tile = rest / 64u, l = rest % 64u;
-    uvec2 inTile = uvec2((l & 3u) | ((l >> 2u) & 4u), ((l >> 2u) & 3u) | ((l >> 3u) & 4u));
-    bool tiled = rows == 8u && width % 8u == 0u;
-    uvec2 blocked = uvec2(8u * tile, 8u * band) + inTile;
-    return tiled ? blocked : uvec2(rest % width, 8u * band + rest / width);
-}
 
 // Shader only: adds a finished path to the film; what that cannot hold counts as zero and is reported.
 void finishPath(inout Path p, inout FilmPixel pixel, inout uvec3 anomalies) {
     bool bad = !fitsFilm(p.radiance);
     bool negative = any(lessThan(p.radiance, vec3(0.0)));
     anomalies += uvec3(1u, bad ? 1u : 0u, negative && !bad ? 1u : 0u);
-    accumulate(pixel, bad ? vec3(0.0) : p.radiance);
+    accumulate(pixel, bad ? vec3(0.0) : p.radiance, arguments.emptyFilm != 0u && p.sampleIndex == 0u);
     ++p.sampleIndex;
 }
 
@@ -47,8 +24,7 @@ struct Lane {
     FilmPixel film;
     Counts counts;
     uvec3 anomalies;   // samples, not finite, negative
-    uvec2 pixel;
-    uint pixelIndex;
+    Place place;
 };
 
 // Shader only: counts the turns that a path spends at one point of a ray. A distance that is no number is no progress.
@@ -68,7 +44,7 @@ void turn(inout Lane lane, uint next) {
     if (next == kContinue) next = handleEvent(lane.path, light, shadowExponential, lane.counts);
     if (next == kFinish) finishPath(lane.path, lane.film, lane.anomalies);
     if (next == kFinish || next == kBegin) {
-        startPath(lane.path, lane.pixelIndex, lane.pixel, arguments);
+        startPath(lane.path, lane.place.pixelIndex, lane.place.pixel, arguments);
         next = kFlight;
     }
     if (next == kFlight || next == kShadow) startRay(lane.path, next == kShadow, light, shadowExponential);
@@ -80,23 +56,25 @@ void turn(inout Lane lane, uint next) {
 // Shader only: names the first path that is stuck.
 void reportStuck(Lane lane) {
     if (atomicAdd(counters[kCounterStuck], 1u) > 0u) return;
-    counters[kCounterStuckX] = lane.pixel.x;
-    counters[kCounterStuckY] = lane.pixel.y;
+    counters[kCounterStuckX] = lane.place.pixel.x;
+    counters[kCounterStuckY] = lane.place.pixel.y;
     counters[kCounterStuckSample] = lane.path.sampleIndex;
 }
 
-// Shader only: adds up what the lane counted, `goal` being the samples it was to have.
+// Shader only: adds up what the lane counted, `goal` being the samples it was to have. What control pixels do is not in
+// the image; what must not happen, must not happen there either.
 void report(Lane lane, uint goal) {
     bool unfinished = lane.path.sampleIndex < goal, stuck = isStuck(lane.path);
-    count(kCounterPathsFinished, lane.anomalies.x);
-    count(kCounterNonFinite, lane.anomalies.y);
-    count(kCounterNegative, lane.anomalies.z);
+    uint inImage = lane.place.isControl ? 0u : 1u;
+    count(kCounterPathsFinished, lane.anomalies.x * inImage);
+    count(kCounterNonFinite, lane.anomalies.y * inImage);
+    count(kCounterNegative, lane.anomalies.z * inImage);
     count(kCounterMajorantViolations, lane.counts.violations);
     count(kCounterBvhOverflow, lane.counts.traversalsOk ? 0u : 1u);
     count(kCounterLoopTruncated, unfinished && !stuck && lane.counts.tests < arguments.loopBudget ? 1u : 0u);
-    count(kCounterSteps, lane.counts.steps);
-    count(kCounterCollisions, lane.counts.collisions);
-    count(kCounterVertices, lane.counts.vertices);
+    count(kCounterSteps, lane.counts.steps * inImage);
+    count(kCounterCollisions, lane.counts.collisions * inImage);
+    count(kCounterVertices, lane.counts.vertices * inImage);
     count(kCounterActiveLanes, unfinished ? 1u : 0u);
     if (stuck) reportStuck(lane);
 }
@@ -105,10 +83,8 @@ void report(Lane lane, uint goal) {
 void tracePixel(uint laneId) {
     loadScene();
     Lane lane;
-    uvec2 inCrop = lanePixel(laneId);
-    uint filmIndex = inCrop.y * arguments.cropSize.x + inCrop.x - arguments.firstPixel;  // the batch has its own film
-    lane.pixel = arguments.cropOffset + inCrop;
-    lane.pixelIndex = lane.pixel.y * arguments.filmSize.x + lane.pixel.x;
+    lane.place = placeOf(laneId);
+    uint filmIndex = lane.place.filmIndex;
     lane.film = film[filmIndex];
     firstLayer = filmIndex * depthLayers;
     lane.counts = Counts(0u, 0u, 0u, 0u, 0u, true);
@@ -120,7 +96,7 @@ void tracePixel(uint laneId) {
         lane.path.segment.t = 0.0;
         lane.path.stalledTurns = 0u;
     }
-    keyPath(lane.path, lane.pixelIndex, arguments);
+    keyPath(lane.path, lane.place.pixelIndex, arguments);
     uint next = restart ? kBegin : kContinue;
     bool pauses = lane.path.sampleIndex < arguments.pauseAt;
     uint goal = pauses ? min(arguments.pauseAt, arguments.sampleCount) : arguments.sampleCount;

@@ -9,14 +9,19 @@ SHARED_BEGIN
 // A sample whose channels are not all below this is dropped and counted: its square would leave the range of float. 2^63
 SHARED_CONST(float, kLargestSample, 9223372036854775808.0f);
 
-// Compensated sums over a pixel's samples: value = high + low (Kahan). 48 bytes a pixel.
+// Sums over a pixel's samples; those in two parts are compensated: value = high + low (Kahan). 84 bytes a pixel.
 struct FilmPixel {
     vec3 sumHigh;
     vec3 sumLow;
     vec3 squareHigh;  // of the squared samples, per channel
     vec3 squareLow;
+    vec3 powerHigh;   // of d, d^2 and d^3, d being a sample's luminance less `pivot`
+    vec3 powerLow;
+    float fourth;     // of d^4
+    float pivot;      // luminance of the pixel's first sample: where samples hardly differ, their powers would cancel
+    float largest;    // luminance of the brightest sample
 };
-SHARED_LAYOUT(FilmPixel, 48);
+SHARED_LAYOUT(FilmPixel, 84);
 
 // A film layer's share of a pixel: what paths of one number of scatterings bring. Layer k of pixel p is
 // at p * SceneConstants.depthLayers + k.
@@ -57,6 +62,11 @@ SHARED_CONST(uint, kCounterCount, 16u);
 // no progress").
 SHARED_CONST(uint, kMaximumStall, 65536u);
 
+// Control pixels are pixels of the image rendered again, kControlRuns times, each with random numbers of its own: run r
+// takes the samples from (r + 1) << kControlShift in the high word of their index on, images those below: 2^40.
+SHARED_CONST(uint, kControlRuns, 2u);
+SHARED_CONST(uint, kControlShift, 8u);
+
 // Random draws: four words from pcg4d(key.x, key.y, vertex, purpose). Vertex 0 is the camera. What tells purposes apart
 // stands in their low bits: pcg4d carries differences upwards, and words of purposes that differ in their highest bits
 // alone have most of their low bits in common.
@@ -88,8 +98,10 @@ struct PathArguments {
     uint restart;        // 1: lanes begin the window afresh; 0: they resume their saved path
     uint pauseAt;        // lanes with fewer samples stop at this many for the rest of the dispatch
     uint stallLimit;     // turns without progress after which a path is stuck
+    uint imageLanes;     // of laneCount: the pixels of the image; the others render control pixels
+    uint emptyFilm;      // 1: the film holds no samples before this window
 };
-SHARED_LAYOUT(PathArguments, 64);
+SHARED_LAYOUT(PathArguments, 72);
 
 SHARED_END
 

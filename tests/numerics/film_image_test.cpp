@@ -16,7 +16,7 @@ constexpr double kRounding = 0x1p-24;
 
 void addSample(shared::FilmPixel& pixel, const glm::vec3& sample) {
     reference::Counters counters{};
-    reference::accumulate(pixel, sample, counters);
+    reference::accumulate(pixel, sample, pixel.sumHigh == glm::vec3(0), counters);
 }
 
 Film onePixel(std::uint64_t samples) {

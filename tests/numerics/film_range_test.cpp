@@ -170,7 +170,7 @@ TEST(FilmRange, SamplesBeyondItAreDroppedAndCounted) {
     const auto counted = [](glm::vec3 sample) {
         shared::FilmPixel pixel{};
         reference::Counters counters{};
-        reference::accumulate(pixel, sample, counters);
+        reference::accumulate(pixel, sample, true, counters);
         EXPECT_TRUE(std::isfinite(pixel.squareHigh.x + pixel.sumHigh.x));
         EXPECT_EQ(pixel.sumHigh.x, counters[shared::kCounterNonFinite] > 0 ? 0.0f : sample.x);
         return counters[shared::kCounterNonFinite];
@@ -200,7 +200,8 @@ Film filmOf(const std::vector<float>& samples, double unit = 1.0) {
     film.radianceUnit = unit;
     film.pixels.resize(1, shared::FilmPixel{});
     reference::Counters counters{};
-    for (const float sample : samples) reference::accumulate(film.pixels[0], glm::vec3(sample), counters);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        reference::accumulate(film.pixels[0], glm::vec3(samples[i]), i == 0, counters);
     return film;
 }
 

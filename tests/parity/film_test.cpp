@@ -15,6 +15,8 @@ namespace {
 
 using test::Parity;
 
+constexpr std::size_t kRows = 9;  // of an item, of parity/film.comp
+
 /// Sum of value * (1, 2, 3, 1, 2, 3, ...) as the device forms the summands, and of their squares, in double.
 glm::dvec2 exactSums(float value, int count) {
     glm::dvec2 sums(0);
@@ -28,10 +30,10 @@ glm::dvec2 exactSums(float value, int count) {
 /// Adds `count` samples of values[i].xyz to pixel i: rows as parity/film.comp returns them.
 std::vector<glm::vec4> accumulateOnDevice(const std::vector<glm::vec3>& values, int count) {
     constexpr int kAtOnce = 60'000;  // the software driver ends loops after 65535 turns
-    std::vector<glm::vec4> rows(6 * values.size(), glm::vec4(0));
+    std::vector<glm::vec4> rows(kRows * values.size(), glm::vec4(0));
     for (int done = 0; done < count; done += kAtOnce) {
-        for (std::size_t i = 0; i < values.size(); ++i) rows[6 * i] = {values[i], std::min(kAtOnce, count - done)};
-        rows = test::probe("parity/film.comp", 0, rows, 6, 6);
+        for (std::size_t i = 0; i < values.size(); ++i) rows[kRows * i] = {values[i], std::min(kAtOnce, count - done)};
+        rows = test::probe("parity/film.comp", 0, rows, kRows, kRows);
     }
     return rows;
 }
@@ -48,9 +50,11 @@ TEST(FilmParity, MillionSamplesKeepTheirDigitsH77H80) {
     for (std::size_t i = 0; i < values.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             const glm::dvec2 exact = exactSums(values[i][c], kCount);
-            EXPECT_TRUE(film.near(double(rows[6 * i + 1][c]) + rows[6 * i + 2][c], exact.x)) << i << ", channel " << c;
-            EXPECT_TRUE(film.near(double(rows[6 * i + 3][c]) + rows[6 * i + 4][c], exact.y)) << i << ", channel " << c;
-            naive.add(rows[6 * i + 5][c], exact.x);
+            EXPECT_TRUE(film.near(double(rows[kRows * i + 1][c]) + rows[kRows * i + 2][c], exact.x))
+                << i << ", channel " << c;
+            EXPECT_TRUE(film.near(double(rows[kRows * i + 3][c]) + rows[kRows * i + 4][c], exact.y))
+                << i << ", channel " << c;
+            naive.add(rows[kRows * i + 5][c], exact.x);
         }
     EXPECT_GT(naive.worst(), 100 * kAllowed);
 }
@@ -62,12 +66,15 @@ TEST(FilmParity, ReferenceInFloatAgreesToTheBit) {
     const auto rows = accumulateOnDevice({value}, kCount);
     shared::FilmPixel pixel{};
     reference::Counters counters{};
-    for (int i = 0; i < kCount; ++i) reference::accumulate<float>(pixel, value * float(1 + i % 3), counters);
+    for (int i = 0; i < kCount; ++i) reference::accumulate<float>(pixel, value * float(1 + i % 3), i == 0, counters);
     Parity parity("integrator/film", "accumulate", 0);
     EXPECT_TRUE(parity.near(rows[1], pixel.sumHigh));
     EXPECT_TRUE(parity.near(rows[2], pixel.sumLow));
     EXPECT_TRUE(parity.near(rows[3], pixel.squareHigh));
     EXPECT_TRUE(parity.near(rows[4], pixel.squareLow));
+    EXPECT_TRUE(parity.near(rows[6], pixel.powerHigh));
+    EXPECT_TRUE(parity.near(rows[7], pixel.powerLow));
+    EXPECT_TRUE(parity.near(glm::vec3(rows[8]), glm::vec3(pixel.fourth, pixel.pivot, pixel.largest)));
 }
 
 TEST(FilmParity, OneCompensatedSumAgreesToTheBit) {
@@ -78,17 +85,69 @@ TEST(FilmParity, OneCompensatedSumAgreesToTheBit) {
         inputs.emplace_back(stress.point(stress.magnitude(1e-5f, 1e5f)), 0);
         inputs.emplace_back(stress.point(size), 0);
         inputs.emplace_back(stress.point(size * 0x1p-24f), 0);
-        for (int unused = 0; unused < 3; ++unused) inputs.emplace_back(0);
+        inputs.resize(inputs.size() + kRows - 3, glm::vec4(0));
     }
-    const auto rows = test::probe("parity/film.comp", 0, inputs, 6, 6);
+    const auto rows = test::probe("parity/film.comp", 0, inputs, kRows, kRows);
     Parity parity("integrator/film", "addCompensated", 0);
-    for (std::size_t i = 0; i < rows.size(); i += 6)
+    for (std::size_t i = 0; i < rows.size(); i += kRows)
         for (int c = 0; c < 3; ++c) {
             float high = inputs[i + 1][c], low = inputs[i + 2][c];
             reference::addCompensated<float>(high, low, inputs[i][c]);
             EXPECT_TRUE(parity.near(rows[i][c], high)) << i;
             EXPECT_TRUE(parity.near(rows[i + 1 + std::size_t(c)].w, low)) << i;
         }
+}
+
+TEST(FilmParity, LuminanceAgreesToTheBit) {
+    std::vector<glm::vec4> inputs;
+    test::Stress stress(29);
+    for (int i = 0; i < 1'000; ++i) {
+        inputs.emplace_back(glm::abs(stress.point(stress.magnitude(1e-9f, 1e9f))), 0);
+        inputs.resize(inputs.size() + kRows - 1, glm::vec4(0));
+    }
+    const auto rows = test::probe("parity/film.comp", 0, inputs, kRows, kRows);
+    Parity parity("integrator/film", "luminance", 0);
+    for (std::size_t i = 0; i < rows.size(); i += kRows)
+        EXPECT_TRUE(parity.near(rows[i + 7].w, reference::luminance<float>(glm::vec3(inputs[i]))));
+}
+
+/// Sums of the powers of what a sample's luminance is above the first one's, in double.
+struct ExactPowers {
+    double sums[4] = {0, 0, 0, 0};
+    float pivot = 0;
+
+    void add(float y, bool first) {
+        if (first) pivot = y;
+        double power = 1;
+        for (double& sum : sums) sum += power *= double(y) - pivot;
+    }
+};
+
+// Powers about the first sample: of samples that hardly differ, and of a million, they keep their digits.
+TEST(FilmParity, PowersKeepTheirDigitsH77) {
+    constexpr int kCount = 60'000;
+    for (const float spread : {1.0f, 1e-3f}) {
+        shared::FilmPixel pixel{};
+        reference::Counters counters{};
+        ExactPowers exact;
+        double naive = 0, squares = 0, sum = 0;
+        for (int i = 0; i < 20 * kCount; ++i) {
+            const glm::vec3 value(1 + spread * float(i % 7) / 7);
+            reference::accumulate<float>(pixel, value, i == 0, counters);
+            const float y = reference::luminance<float>(value);
+            exact.add(y, i == 0);
+            sum += y;
+            squares += double(y * y);
+        }
+        naive = squares - sum * sum / (20 * kCount);
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR((double(pixel.powerHigh[k]) + pixel.powerLow[k]) / exact.sums[k], 1, 1e-6) << k << spread;
+        // A float sum of positive terms that grow it by less than 2^-20 of itself: each is off by 2^-25 of the sum.
+        EXPECT_NEAR(pixel.fourth / exact.sums[3], 1, 0.05) << spread;
+        EXPECT_NEAR(pixel.largest, 1 + spread * 6 / 7, 1e-6);
+        const double variance = exact.sums[1] - exact.sums[0] * exact.sums[0] / (20 * kCount);
+        if (spread < 1) EXPECT_GT(std::abs(naive / variance - 1), 1e-4) << "the raw squares do not lose these digits";
+    }
 }
 
 TEST(FilmParity, BothSidesTakeTheSameSamples) {
@@ -110,13 +169,13 @@ TEST(FilmParity, BothSidesTakeTheSameSamples) {
             glm::vec4 sample(1, 0, 2, 0);
             sample[channel] = value;
             inputs.push_back(sample);
-            inputs.resize(inputs.size() + 5, glm::vec4(0));
+            inputs.resize(inputs.size() + kRows - 1, glm::vec4(0));
         }
-    const auto rows = test::probe("parity/film.comp", 0, inputs, 6, 6);
+    const auto rows = test::probe("parity/film.comp", 0, inputs, kRows, kRows);
     Parity parity("integrator/film", "fitsFilm", 0);
-    for (std::size_t i = 0; i < rows.size(); i += 6)
+    for (std::size_t i = 0; i < rows.size(); i += kRows)
         EXPECT_TRUE(parity.near(rows[i + 5].w, reference::fitsFilm<float>(glm::vec3(inputs[i])) ? 1.0f : 0.0f))
-            << i / 18;
+            << i / (3 * kRows);
 }
 
 }  // namespace

@@ -92,7 +92,9 @@ std::vector<glm::dvec3> addSample(render::PathTracePass& pass, const CompiledSce
                      .loopBudget = kBudget,
                      .restart = restart,
                      .pauseAt = 0,
-                     .stallLimit = shared::kMaximumStall});
+                     .stallLimit = shared::kMaximumStall,
+                     .imageLanes = kSize.x * kSize.y,
+                     .emptyFilm = 0});
         restart = false;
     } while (std::ranges::count(pass.samplesDone(0), 0u) > 0);
     std::vector<glm::dvec3> sums;
@@ -142,8 +144,8 @@ void traceReference(const CompiledScene& scene, std::uint64_t index, std::span<P
 std::vector<PathPair> tracePaths(const CompiledScene& onDevice, const CompiledScene& onReference) {
     gpu::Device& device = testDevice();
     const render::DeviceScene deviceScene(device, onDevice);
-    const render::Batch batch{.firstPixel = 0, .laneCount = kSize.x * kSize.y};
-    render::PathTracePass pass(device, deviceScene, render::specialise(onDevice, onDevice.effects, {}), {&batch, 1},
+    const render::Batch batch{.firstPixel = 0, .pixelCount = kSize.x * kSize.y};
+    render::PathTracePass pass(device, deviceScene, render::specialise(onDevice, onDevice.effects, {}), {&batch, 1}, {},
                                onDevice.constants.depthLayers);
     std::vector<PathPair> all;
     std::vector<glm::dvec3> before(kSize.x * kSize.y, glm::dvec3(0));

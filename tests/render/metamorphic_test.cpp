@@ -136,6 +136,11 @@ TEST(Metamorphic, BrighteningTheLightsByPowersOfTwoScalesTheFilmExactly) {
             pixel.sumLow /= s;
             pixel.squareHigh /= s * s;
             pixel.squareLow /= s * s;
+            pixel.powerHigh /= glm::vec3(s, s * s, s * s * s);
+            pixel.powerLow /= glm::vec3(s, s * s, s * s * s);
+            pixel.fourth /= s * s * s * s;
+            pixel.pivot /= s;
+            pixel.largest /= s;
         }
         EXPECT_EQ(countDifferentPixels(plain, film), 0u) << s;
     }
@@ -153,6 +158,15 @@ CompiledScene turnChannels(CompiledScene scene) {
     return scene;
 }
 
+/// Without the moments of the luminance, in which channels differ.
+Film withoutMoments(Film film) {
+    for (shared::FilmPixel& p : film.pixels) {
+        p.powerHigh = p.powerLow = glm::vec3(0);
+        p.fourth = p.pivot = p.largest = 0;
+    }
+    return film;
+}
+
 Film turnChannels(Film film) {
     for (shared::FilmPixel& p : film.pixels)
         for (glm::vec3* v : {&p.sumHigh, &p.sumLow, &p.squareHigh, &p.squareLow}) *v = {v->y, v->z, v->x};
@@ -161,9 +175,9 @@ Film turnChannels(Film film) {
 
 TEST(Metamorphic, TurningTheColoursTurnsTheImage) {
     const CompiledScene grey = foggyScene();
-    EXPECT_EQ(
-        countDifferentPixels(turnChannels(renderFilm(grey, kBitSamples)), renderFilm(turnChannels(grey), kBitSamples)),
-        0u);
+    EXPECT_EQ(countDifferentPixels(withoutMoments(turnChannels(renderFilm(grey, kBitSamples))),
+                                   withoutMoments(renderFilm(turnChannels(grey), kBitSamples))),
+              0u);
     CompiledScene chromatic = grey;
     chromatic.constants.media[0].sigmaRatio = {1.0f, 0.6f, 0.3f};
     chromatic.effects = analyseEffects(chromatic);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 
 #include "image/image.h"
@@ -122,6 +123,57 @@ TEST(Slicing, BeingCutOffIsAShorterRun) {
         EXPECT_TRUE(film.pixelSamples.empty());
         EXPECT_EQ(countDifferentPixels(film, renderVulkan(scene, settingsFor(scene, film.samples))), 0u);
     }
+}
+
+RenderSettings withControls(RenderSettings settings, const CompiledScene& scene) {
+    settings.controls = chooseControlPixels(scene.cropSize, 5);
+    return settings;
+}
+
+std::size_t countDifferentControls(const Film& a, const Film& b) {
+    std::size_t different = a.controls.size() != b.controls.size();
+    for (std::size_t i = 0; i < std::min(a.controls.size(), b.controls.size()); ++i)
+        different += std::memcmp(&a.controls[i], &b.controls[i], sizeof(ControlPixel)) != 0;
+    return different;
+}
+
+// Control pixels have samples of their own: neither those of the image nor each other's; the image is what it is
+// without them.
+TEST(Slicing, ControlPixelsLeaveTheImageAlone) {
+    const CompiledScene scene = cloudScene();
+    const RenderSettings settings = withControls(settingsFor(scene, kSamples), scene);
+    const Film film = renderVulkan(scene, settings), plain = renderVulkan(scene, settingsFor(scene, kSamples));
+    EXPECT_EQ(countDifferentPixels(film, plain), 0u);
+    EXPECT_EQ(film.counters, plain.counters);
+    ASSERT_EQ(film.controls.size(), settings.controls.pixels.size());
+    std::size_t alike = 0, inCloud = 0;
+    for (const ControlPixel& control : film.controls) {
+        const glm::dvec3 own = sampleSum(film.pixels[control.pixel]);
+        const glm::dvec3 first = sampleSum(control.runs[0]), second = sampleSum(control.runs[1]);
+        alike += own == first || own == second || first == second;
+        ++inCloud;
+    }
+    EXPECT_LT(alike, inCloud / 4) << "pixels of which all see nothing but sky may agree";
+}
+
+// However the work is cut, and on either back end: control pixels are as much a function of the scene as the image.
+TEST(Slicing, ControlPixelsDoNotDependOnTheCut) {
+    const CompiledScene scene = cloudScene({512, 264});  // two batches
+    const RenderSettings settings = withControls(settingsFor(scene, 2), scene);
+    const Film film = renderVulkan(scene, settings);
+    RenderSettings endless = settings;
+    endless.sampleCount = 1 << 20;
+    render::Renderer renderer(testDevice(), scene, endless);
+    renderer.setSampleCount(1);
+    while (renderer.step()) {
+    }
+    EXPECT_EQ(renderer.setSampleCount(2), 2u);
+    while (renderer.step()) {
+    }
+    const Film inRounds = renderer.film();
+    EXPECT_EQ(inRounds.samples, 2u);
+    EXPECT_EQ(countDifferentPixels(film, inRounds), 0u);
+    EXPECT_EQ(countDifferentControls(film, inRounds), 0u);
 }
 
 /// Pixels whose sum is not that of `samples` ones.

@@ -47,8 +47,7 @@ std::string sceneXml(const std::string& body, const SceneFrame& frame) {
 }
 
 CompiledScene compileFile(const std::filesystem::path& file, glm::uvec2 size,
-                          const std::map<std::string, std::string>& defines) {
-    CompileOptions options;
+                          const std::map<std::string, std::string>& defines, CompileOptions options) {
     options.size = size;
     SceneDescription description = readScene(file, {.defines = defines});
     bakeClouds(description, {.bake = reference::bakeCloud<float>, .evaluate = {}});

@@ -28,7 +28,7 @@ std::string sceneXml(const std::string& body, const SceneFrame& frame = {});
 
 /// Reads and compiles a scene, for a film of `size` pixels.
 CompiledScene compileFile(const std::filesystem::path& file, glm::uvec2 size,
-                          const std::map<std::string, std::string>& defines = {});
+                          const std::map<std::string, std::string>& defines = {}, CompileOptions options = {});
 CompiledScene compileText(const std::string& text, glm::uvec2 size, CompileOptions options = {});
 
 /// What to render of a scene: its own effects, default quality, one camera ray a pixel for the features.

@@ -109,7 +109,7 @@ TEST(ReferenceRenderer, TracedSamplesAddUpToTheFilm) {
                 PathTrace trace;
                 const glm::vec3 radiance = tracePath<float>(scene.scene, settings, {x, y}, s);
                 EXPECT_EQ(tracePath<float>(scene.scene, settings, {x, y}, s, &trace), radiance);
-                accumulate(pixel, radiance, counters);
+                accumulate(pixel, radiance, s == 0, counters);
             }
             EXPECT_EQ(pixel.sumHigh, film.pixels[y * 12 + x].sumHigh);
         }
@@ -143,9 +143,9 @@ TEST(ReferenceRenderer, FloatAndDoubleTakeTheSamePathsUnlessADecisionIsClose) {
 TEST(ReferenceRenderer, NonFiniteAndNegativeSamplesAreCounted) {  // H78
     shared::FilmPixel pixel{};
     Counters counters{};
-    accumulate(pixel, glm::vec3(1, std::numeric_limits<float>::quiet_NaN(), 1), counters);
-    accumulate(pixel, glm::vec3(1, 2, std::numeric_limits<float>::infinity()), counters);
-    accumulate(pixel, glm::vec3(1, -2, 3), counters);
+    accumulate(pixel, glm::vec3(1, std::numeric_limits<float>::quiet_NaN(), 1), true, counters);
+    accumulate(pixel, glm::vec3(1, 2, std::numeric_limits<float>::infinity()), false, counters);
+    accumulate(pixel, glm::vec3(1, -2, 3), false, counters);
     EXPECT_EQ(counters[shared::kCounterNonFinite], 2u);
     EXPECT_EQ(counters[shared::kCounterNegative], 1u);
     EXPECT_EQ(pixel.sumHigh, glm::vec3(1, -2, 3));
@@ -155,8 +155,8 @@ TEST(ReferenceRenderer, MillionsOfEqualSamplesKeepTheirSum) {  // H77: naive flo
     shared::FilmPixel inFloat{}, inDouble{};
     Counters counters{};
     for (int i = 0; i < 1000000; ++i) {
-        accumulate(inFloat, glm::vec3(0.1f), counters);
-        accumulate(inDouble, glm::dvec3(0.1f), counters);
+        accumulate(inFloat, glm::vec3(0.1f), i == 0, counters);
+        accumulate(inDouble, glm::dvec3(0.1f), i == 0, counters);
     }
     const double exact = 1e6 * double(0.1f);
     EXPECT_NEAR(test::estimate(inFloat, 1).mean / exact, 1, 1e-7);

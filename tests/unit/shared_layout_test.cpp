@@ -54,7 +54,9 @@ void expectLayout(const std::string& type, std::size_t size, const Members& expe
 
 TEST(SharedLayout, FilmPixelIsTheSameInBothLanguages) {
     using Type = shared::FilmPixel;
-    expectLayout("FilmPixel", sizeof(Type), {MEMBER(sumHigh), MEMBER(sumLow), MEMBER(squareHigh), MEMBER(squareLow)});
+    expectLayout("FilmPixel", sizeof(Type),
+                 {MEMBER(sumHigh), MEMBER(sumLow), MEMBER(squareHigh), MEMBER(squareLow), MEMBER(powerHigh),
+                  MEMBER(powerLow), MEMBER(fourth), MEMBER(pivot), MEMBER(largest)});
 }
 
 TEST(SharedLayout, LayerPixelIsTheSameInBothLanguages) {
@@ -72,7 +74,7 @@ TEST(SharedLayout, PathArgumentsAreTheSameInBothLanguages) {
     expectLayout("PathArguments", sizeof(Type),
                  {MEMBER(filmSize), MEMBER(cropOffset), MEMBER(cropSize), MEMBER(firstPixel), MEMBER(laneCount),
                   MEMBER(sampleLow), MEMBER(sampleHigh), MEMBER(sampleCount), MEMBER(seed), MEMBER(loopBudget),
-                  MEMBER(restart), MEMBER(pauseAt), MEMBER(stallLimit)});
+                  MEMBER(restart), MEMBER(pauseAt), MEMBER(stallLimit), MEMBER(imageLanes), MEMBER(emptyFilm)});
 }
 
 TEST(SharedLayout, ShapeIsTheSameInBothLanguages) {

@@ -32,9 +32,16 @@ bool fitsFilm(const Vec3<Real>& radiance) {
     return true;
 }
 
-/// Adds one sample to a pixel. A sample that does not fit counts as zero; it and negative ones are counted.
+/// Rec. 709.
 template <typename Real>
-void accumulate(shared::FilmPixel& pixel, Vec3<Real> radiance, Counters& counters) {
+Real luminance(const Vec3<Real>& radiance) {
+    return Real(0.2126f) * radiance.x + Real(0.7152f) * radiance.y + Real(0.0722f) * radiance.z;
+}
+
+/// Adds one sample to a pixel. A sample that does not fit counts as zero; it and negative ones are counted.
+/// @param first  whether the pixel is empty.
+template <typename Real>
+void accumulate(shared::FilmPixel& pixel, Vec3<Real> radiance, bool first, Counters& counters) {
     if (!fitsFilm(radiance)) {
         ++counters[shared::kCounterNonFinite];
         radiance = Vec3<Real>(0);
@@ -44,6 +51,13 @@ void accumulate(shared::FilmPixel& pixel, Vec3<Real> radiance, Counters& counter
         addCompensated(pixel.sumHigh[c], pixel.sumLow[c], radiance[c]);
         addCompensated(pixel.squareHigh[c], pixel.squareLow[c], radiance[c] * radiance[c]);
     }
+    const Real y = luminance(radiance);
+    if (first) pixel.pivot = float(y);
+    const Real d = y - Real(pixel.pivot);
+    const Real powers[] = {d, d * d, d * d * d};
+    for (int k = 0; k < 3; ++k) addCompensated(pixel.powerHigh[k], pixel.powerLow[k], powers[k]);
+    pixel.fourth += float(powers[1] * powers[1]);
+    pixel.largest = std::max(pixel.largest, float(y));
 }
 
 }  // namespace parhelion::reference
