@@ -32,19 +32,23 @@ void fillChannel(Image& image, RangeFaults& faults, const std::string& name, con
     for (std::size_t i = 0; i < channel.size(); ++i) channel[i] = toChannel(value(i), faults);
 }
 
+double samplesOf(const Film& film, std::size_t pixel) {
+    return static_cast<double>(film.pixelSamples.empty() ? film.samples : film.pixelSamples[pixel]);
+}
+
 /// Mean and variance of the mean of one channel of a film's pixels.
 class PixelStatistics {
 public:
-    PixelStatistics(const Film& film, int channel)
-        : film_(film), channel_(channel), samples_(static_cast<double>(film.samples)) {}
+    PixelStatistics(const Film& film, int channel) : film_(film), channel_(channel) {}
 
     double mean(std::size_t i) const { return unitMean(i) * film_.radianceUnit; }
 
     /// @param below  counts a variance of what is at least `darkest` that float cannot tell.
     double varianceOfMean(std::size_t i, double darkest, std::uint64_t& below) const {
         const shared::FilmPixel& pixel = film_.pixels[i];
-        const double meanSquare = (double{pixel.squareHigh[channel_]} + double{pixel.squareLow[channel_]}) / samples_;
-        const double unit = film_.radianceUnit * film_.radianceUnit, others = samples_ - 1;
+        const double samples = samplesOf(film_, i);
+        const double meanSquare = (double{pixel.squareHigh[channel_]} + double{pixel.squareLow[channel_]}) / samples;
+        const double unit = film_.radianceUnit * film_.radianceUnit, others = samples - 1;
         const double spread = meanSquare - unitMean(i) * unitMean(i);
         double variance = (spread < 0.0 ? 0.0 : spread) / others * unit;  // NaN stays: a sum beyond float
         const bool matters = mean(i) > 0.0 && mean(i) >= darkest;
@@ -62,12 +66,11 @@ public:
 private:
     double unitMean(std::size_t i) const {
         const shared::FilmPixel& pixel = film_.pixels[i];
-        return (double{pixel.sumHigh[channel_]} + double{pixel.sumLow[channel_]}) / samples_;
+        return (double{pixel.sumHigh[channel_]} + double{pixel.sumLow[channel_]}) / samplesOf(film_, i);
     }
 
     const Film& film_;
     int channel_;
-    double samples_;
 };
 
 /// Means below this share of the brightest one make no difference to an image.
@@ -79,7 +82,7 @@ double darkestThatMatters(const Film& film) {
     return 0x1p-40 * brightest;
 }
 
-void addRadiance(Image& image, const Film& film, RangeFaults& faults) {
+void addRadiance(Image& image, const Film& film, std::span<const float> varianceFactors, RangeFaults& faults) {
     const double darkest = darkestThatMatters(film);
     for (int c = 0; c < 3; ++c) {
         const PixelStatistics statistics(film, c);
@@ -89,19 +92,20 @@ void addRadiance(Image& image, const Film& film, RangeFaults& faults) {
             return mean;
         });
         if (film.samples > 1)
-            fillChannel(image, faults, std::string("variance.") + kColours[c],
-                        [&](std::size_t i) { return statistics.varianceOfMean(i, darkest, faults.below); });
+            fillChannel(image, faults, std::string("variance.") + kColours[c], [&](std::size_t i) {
+                const double factor = varianceFactors.empty() ? 1.0 : double{varianceFactors[i]};
+                return factor * statistics.varianceOfMean(i, darkest, faults.below);
+            });
     }
-    const double n = static_cast<double>(film.samples);
-    fillChannel(image, faults, "sampleCount.Y", [n](std::size_t) { return n; });
+    fillChannel(image, faults, "sampleCount.Y", [&film](std::size_t i) { return samplesOf(film, i); });
 }
 
 void addDepthLayers(Image& image, const Film& film, RangeFaults& faults) {
-    const double n = static_cast<double>(film.samples);
     for (std::uint32_t layer = 0; layer < film.depthLayers; ++layer)
         for (int c = 0; c < 3; ++c)
             fillChannel(image, faults, "depth" + std::to_string(layer) + "." + kColours[c],
-                        [&film, n, layer, c](std::size_t i) {
+                        [&film, layer, c](std::size_t i) {
+                            const double n = samplesOf(film, i);
                             const shared::LayerPixel& pixel = film.layers[i * film.depthLayers + layer];
                             return (double{pixel.sumHigh[c]} + double{pixel.sumLow[c]}) / n * film.radianceUnit;
                         });
@@ -123,11 +127,11 @@ void addFeatures(Image& image, const Film& film, RangeFaults& faults) {
 
 }  // namespace
 
-Image toImage(const Film& film, RangeFaults* faults) {
+Image toImage(const Film& film, RangeFaults* faults, std::span<const float> varianceFactors) {
     RangeFaults found;
     if (film.samples == 0) throw RuntimeFailure("a film without samples has no mean");
     Image image{.size = film.crop.size, .channels = {}, .attributes = {}};
-    addRadiance(image, film, found);
+    addRadiance(image, film, varianceFactors, found);
     addDepthLayers(image, film, found);
     if (film.featureSamples > 0 && !film.features.empty()) addFeatures(image, film, found);
     if (faults) *faults = found;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "base/film.h"
 #include "image/image.h"
@@ -20,19 +21,21 @@ struct RangeFaults {
 /// Resolves a film into the channels of an EXR; the arithmetic is in double, rounded once to float32.
 ///
 /// - R, G, B: mean radiance.
-/// - variance.R, .G, .B: estimated variance of that mean, (E[x^2] - mean^2) / (n - 1), never negative; absent for one
-///   sample a pixel. The float32 squares limit it to about 2^-24 mean^2 / (n - 1): a constant pixel may show that much.
+/// - variance.R, .G, .B: estimated variance of that mean, (E[x^2] - mean^2) / (n - 1) times its factor, never negative;
+///   absent where a pixel has but one sample. The float32 squares limit it to about 2^-24 mean^2 / (n - 1): a constant
+///   pixel may show that much.
 /// - albedo.R, .G, .B, normal.X, .Y, .Z: means over the feature samples, misses counted as 0.
 /// - depth.Z: mean distance of the feature samples that hit a surface, scene units; 0 where none did.
 /// - depth0.R, .G, .B, depth1.R, ...: mean radiance by number of scatterings, the last for all above; only where the
 ///   film has such layers. They sum to R, G, B but for rounding, and for what a sample that was not finite had brought
 ///   before.
-/// - sampleCount.Y: samples per pixel (float32: exact up to 2^24).
+/// - sampleCount.Y: samples of the pixel (float32: exact up to 2^24).
 ///
 /// The image covers film.crop. When that is not the whole film, integer attributes cropX, cropY, filmWidth and
 /// filmHeight place it. Feature channels are absent when the film has no feature samples.
 /// @param faults  receives the numbers of values out of range.
+/// @param varianceFactors  of each pixel: what the variance is of that of independent samples; empty: 1.
 /// @throws RuntimeFailure if the film holds no samples.
-Image toImage(const Film& film, RangeFaults* faults = nullptr);
+Image toImage(const Film& film, RangeFaults* faults = nullptr, std::span<const float> varianceFactors = {});
 
 }  // namespace parhelion

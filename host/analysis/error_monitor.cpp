@@ -1,0 +1,110 @@
+#include "analysis/error_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "analysis/statistics.h"
+
+namespace parhelion {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Slope of a line through (x, y), by least squares.
+double slopeOf(std::span<const ErrorCheckpoint> points, double (*x)(const ErrorCheckpoint&),
+               double (*y)(const ErrorCheckpoint&)) {
+    double meanX = 0, meanY = 0, xx = 0, xy = 0;
+    for (const ErrorCheckpoint& p : points) {
+        meanX += x(p) / double(points.size());
+        meanY += y(p) / double(points.size());
+    }
+    for (const ErrorCheckpoint& p : points) {
+        xx += (x(p) - meanX) * (x(p) - meanX);
+        xy += (x(p) - meanX) * (y(p) - meanY);
+    }
+    return xx > 0 ? xy / xx : 0;
+}
+
+double logSamples(const ErrorCheckpoint& p) { return std::log(double(p.samples)); }
+double logError(const ErrorCheckpoint& p) { return std::log(p.error); }
+
+}  // namespace
+
+const char* nameOf(ErrorNorm norm) {
+    switch (norm) {
+        case ErrorNorm::Rms:
+            return "rms";
+        case ErrorNorm::RelMse:
+            return "relmse";
+        case ErrorNorm::Mean:
+            return "mean";
+        case ErrorNorm::Pixels:
+            return "pixels";
+    }
+    return "";
+}
+
+double errorBy(ErrorNorm norm, const FilmError& error) {
+    if (!error.isFinite) return kInfinity;
+    switch (norm) {
+        case ErrorNorm::Rms:
+            return error.rms.value;
+        case ErrorNorm::RelMse:
+            return std::sqrt(error.relativeMse.value);
+        case ErrorNorm::Mean:
+            return error.meanRelative();
+        case ErrorNorm::Pixels:
+            return error.worstPixels;
+    }
+    return kInfinity;
+}
+
+void ErrorMonitor::add(const Film& film, double seconds) {
+    if (film.samples < 2 || (!checkpoints_.empty() && film.samples <= checkpoints_.back().samples)) return;
+    const auto control = estimateControlError(film), own = estimateFilmError(film);
+    ErrorCheckpoint point{.samples = film.samples, .seconds = seconds, .error = kInfinity};
+    if (control) point.error = errorBy(norm_, *control);
+    if (own && own->isFinite) {
+        point.mean = own->mean[3].value;
+        point.meanError = own->meanRelative() / normalQuantile(0.975);
+        point.varianceOfVariance = own->varianceOfVariance;
+    }
+    checkpoints_.push_back(point);
+}
+
+/// Of log error over log samples: -1/2 for independent samples, steeper for stratified ones.
+double ErrorMonitor::slope() const {
+    std::vector<ErrorCheckpoint> known;
+    const double from = double(checkpoints_.back().samples) / 8;
+    for (const ErrorCheckpoint& p : checkpoints_)
+        if (double(p.samples) >= from && p.error > 0 && std::isfinite(p.error)) known.push_back(p);
+    if (known.size() < 2 || known.front().samples * 2 > known.back().samples) return -0.5;
+    return std::clamp(slopeOf(known, logSamples, logError), -1.5, -0.5);
+}
+
+std::optional<double> ErrorMonitor::errorAt(double samples) const {
+    if (checkpoints_.empty() || !std::isfinite(checkpoints_.back().error)) return std::nullopt;
+    const ErrorCheckpoint& last = checkpoints_.back();
+    return last.error * std::pow(samples / double(last.samples), slope());
+}
+
+std::optional<double> ErrorMonitor::samplesFor(double target) const {
+    if (checkpoints_.empty() || !std::isfinite(checkpoints_.back().error)) return std::nullopt;
+    const ErrorCheckpoint& last = checkpoints_.back();
+    return double(last.samples) * std::pow(std::max(last.error, 1e-300) / target, -1 / slope());
+}
+
+std::optional<double> ErrorMonitor::secondsAt(double samples) const {
+    if (checkpoints_.empty()) return std::nullopt;
+    const ErrorCheckpoint& last = checkpoints_.back();
+    // By the later part alone: the first samples wait for the device to get ready.
+    double samplesBefore = 0, secondsBefore = 0;
+    for (const ErrorCheckpoint& p : checkpoints_)
+        if (p.samples * 2 <= last.samples) samplesBefore = double(p.samples), secondsBefore = p.seconds;
+    const double rate = (last.seconds - secondsBefore) / (double(last.samples) - samplesBefore);
+    return last.seconds + rate * (samples - double(last.samples));
+}
+
+}  // namespace parhelion
