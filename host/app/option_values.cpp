@@ -59,6 +59,35 @@ double parseNumber(const std::string& option, const std::string& text, double mi
     return *value;
 }
 
+double parseShare(const std::string& option, const std::string& text) {
+    std::string_view number = text;
+    double unit = 1;
+    if (number.ends_with('%')) {
+        number.remove_suffix(1);
+        if (number.ends_with(' ')) number.remove_suffix(1);
+        unit = 0.01;
+    }
+    const auto value = readWhole<double>(number);
+    if (!value || !(*value * unit >= 1e-9 && *value * unit <= 1))
+        refuse(option, "a share as 1%, 0.5% or 0.01, from 1e-7% to 100%", text);
+    return *value * unit;
+}
+
+double parseSeconds(const std::string& option, const std::string& text) {
+    std::string_view number = text;
+    double unit = 1;
+    for (const auto& [suffix, seconds] : {std::pair('s', 1.0), {'m', 60.0}, {'h', 3600.0}})
+        if (number.ends_with(suffix)) {
+            number.remove_suffix(1);
+            unit = seconds;
+            break;
+        }
+    const auto value = readWhole<double>(number);
+    if (!value || !(*value * unit >= 0.01 && *value * unit <= 1e7))
+        refuse(option, "a time as 30s, 5m or 2h, from 0.01s to 1e7s", text);
+    return *value * unit;
+}
+
 glm::uvec2 parseSize(const std::string& option, const std::string& text) {
     const auto size = readPair(text, 'x', 1, kMaxFilmSize);
     if (!size) refuse(option, fmt::format("WIDTHxHEIGHT, each 1..{}", kMaxFilmSize), text);

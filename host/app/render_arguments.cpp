@@ -7,6 +7,7 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   parhelion render scenes/cloud_box.xml -o cloud.exr --spp 256
+  parhelion render scenes/cloud_box.xml --error 1% --time 5m --report cloud.html
   parhelion render cloud.xml -D sigma=40 --size 320x240 --crop 100,80,64x64
   parhelion render cloud.xml --backend reference-double --spp 16 -o oracle.exr
 
@@ -16,12 +17,34 @@ Exit codes: 0 done, 1 samples dropped, majorants violated or values out of range
 constexpr std::int64_t kMaxSamples = std::int64_t{1} << 40;
 constexpr std::int64_t kMaxUint = 0xffffffff;
 
+std::map<std::string, ErrorNorm> norms() {
+    std::map<std::string, ErrorNorm> words;
+    for (const ErrorNorm norm : {ErrorNorm::Rms, ErrorNorm::RelMse, ErrorNorm::Mean, ErrorNorm::Pixels})
+        words.emplace(nameOf(norm), norm);
+    return words;
+}
+
 void addImageOptions(Command& command, RenderArguments& arguments) {
     addTextOption(command, "-o,--output", arguments.output, "FILE",
                   "image to write (.exr; a .png is written beside it); "
                   "default: the scene's name, in the current folder");
     addIntegerOption(command, "--spp", arguments.sampleCount, 1, kMaxSamples,
-                     "samples per pixel, instead of the scene's");
+                     "samples per pixel, instead of the scene's; with --error or --time: at most");
+    addParsedOption(command, "--error", arguments.error, "X%", "render until the error is as small: 1%, 0.5%, 0.01",
+                    parseShare);
+    addChoiceOption<ErrorNorm, ErrorNorm>(
+        command, "--error-norm", arguments.errorNorm, norms(),
+        "what the error is: rms, root mean square error over the image's mean (default); relmse, root of the relative "
+        "mean squared error; mean, half the 95 % interval of the image's mean; pixels, what 95 % of the pixels' own "
+        "95 % intervals are within");
+    addParsedOption(command, "--time", arguments.seconds, "TIME",
+                    "end the whole process after 30s, 5m, 2h; together with --error: whichever comes first",
+                    parseSeconds);
+    addParsedOption(command, "--save-every", arguments.saveSeconds, "TIME",
+                    "also write the image on the way, as soon as there is one and then as often, each time better",
+                    parseSeconds);
+    addTextOption(command, "--report", arguments.report, "FILE",
+                  "what is known of the image's error and how far it can be trusted, as .html or .json");
     addIntegerOption(command, "--seed", arguments.seed, 0, kMaxUint,
                      "picks the random numbers (default: the scene's, 0)");
     addParsedOption(command, "--crop", arguments.crop, "X,Y,WxH", "render only these pixels of the film", parseCrop);
@@ -56,9 +79,8 @@ void addQualityOptions(Command& command, RenderArguments& arguments) {
         "aim rays at the lights that gain from it (default auto), or at the constant environment too");
     addChoiceOption<std::optional<bool>, bool>(
         command, "--sampler", arguments.sobol, {{"sobol", true}, {"independent", false}},
-        "random numbers: Owen-scrambled Sobol points (default where surfaces or light sampling gain from them; the "
-        "variance "
-        "in the EXR is then an upper bound), or independent ones (default in media alone)");
+        "random numbers: Owen-scrambled Sobol points (default where surfaces or light sampling gain from them), or "
+        "independent ones (default in media alone)");
     addChoiceOption<bool, bool>(command, "--density-filter", arguments.quality.stochasticFilter,
                                 {{"stochastic", true}, {"trilinear", false}},
                                 "one random corner per density lookup (default), or all eight");

@@ -8,45 +8,25 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cloud_reports.h"
-#include "app/error_estimate.h"
 #include "app/exit_codes.h"
 #include "app/output_check.h"
+#include "app/process_start.h"
 #include "app/render_backends.h"
-#include "app/render_report.h"
+#include "app/render_outputs.h"
 #include "app/text_format.h"
-#include "base/files.h"
 #include "base/memory.h"
 #include "compile/compile_scene.h"
 #include "gpu/cache.h"
-#include "image/film_image.h"
 
 namespace parhelion::app {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-struct OutputFiles {
-    fs::path exr, png;
-};
-
-/// Where to write; both places are tried now, not after hours of rendering.
-OutputFiles prepareOutputs(const RenderArguments& arguments) {
-    OutputFiles files;
-    files.exr =
-        arguments.output.empty() ? fs::path(arguments.scene.file).stem().concat(".exr") : fs::path(arguments.output);
-    if (files.exr.extension() != ".exr")
-        throw InputError(fmt::format(
-            "--output: expected a name that ends in .exr (a .png is written beside it); got {}", files.exr.string()));
-    files.png = fs::path(files.exr).replace_extension(".png");
-    for (const fs::path& file : {files.exr, files.png}) AtomicFile probe(file);
-    return files;
-}
-
 /// Reads the scene, none of whose files may be an output.
 SceneDescription readSceneBeside(const OutputFiles& files, const RenderArguments& arguments) {
     SceneDescription description = readScene(arguments.scene);
-    for (const fs::path& file : {files.exr, files.png}) refuseReplacing(description.files, file, "--output");
+    for (const std::filesystem::path& file : files.all())
+        refuseReplacing(description.files, file, file == files.report ? "--report" : "--output");
     return description;
 }
 
@@ -60,6 +40,9 @@ void refuseVulkanOptions(const RenderArguments& arguments) {
     refuse("--vector-bits", arguments.vectorBits.has_value());
     refuse("--effects", arguments.allEffects.has_value());
     refuse("--steps-per-event", arguments.stepsPerEvent.has_value());
+    refuse("--error", arguments.error.has_value());
+    refuse("--time", arguments.seconds.has_value());
+    refuse("--save-every", arguments.saveSeconds.has_value());
 }
 
 void requireInside(const PixelRect& crop, glm::uvec2 film) {
@@ -70,7 +53,7 @@ void requireInside(const PixelRect& crop, glm::uvec2 film) {
 
 /// The system may promise more memory than there is and end the process when it is used: ask first.
 void requireMemory(glm::uvec2 pixels, std::uint32_t depthLayers) {
-    constexpr std::size_t kImageChannels = 14;  // those of toImage
+    constexpr std::size_t kImageChannels = 16;  // those of toImage and of the error
     // The film is held by the back end, with two copies of it as it was, and, at the end, copied from it.
     constexpr double kBytesPerPixel =
         4 * sizeof(shared::FilmPixel) + 2 * sizeof(shared::FeaturePixel) + kImageChannels * sizeof(float);
@@ -106,13 +89,14 @@ bool gainsFromSobol(const EffectSet& effects) {
 
 RenderSettings chooseSettings(const RenderArguments& arguments, const CompiledScene& scene) {
     RenderSettings settings;
-    settings.sampleCount =
-        arguments.sampleCount ? static_cast<std::uint64_t>(*arguments.sampleCount) : scene.sampleCount;
+    const std::uint64_t otherwise = arguments.error || arguments.seconds ? kUnlimitedSamples : scene.sampleCount;
+    settings.sampleCount = arguments.sampleCount ? static_cast<std::uint64_t>(*arguments.sampleCount) : otherwise;
     settings.seed = arguments.seed ? static_cast<std::uint32_t>(*arguments.seed) : scene.seed;
     settings.featureSamples = arguments.featureSamples;
     settings.quality = arguments.quality;
     if (arguments.stepsPerEvent) settings.quality.stepsPerEvent = *arguments.stepsPerEvent;
     settings.quality.sobol = arguments.sobol.value_or(gainsFromSobol(scene.effects));
+    settings.controls = chooseControlPixels(scene.cropSize, settings.seed);
     settings.effects = arguments.allEffects.value_or(false) ? EffectSet::all() : scene.effects;
     return settings;
 }
@@ -134,8 +118,32 @@ std::vector<CloudBakeReport> bake(const RenderArguments& arguments, gpu::Device*
     return bakeClouds(description, device ? deviceBaker(*device) : twinBaker(), {.measureError = arguments.bakeError});
 }
 
+/// Writing takes time as well: what ZIP compression of the channels was measured to take, on the safe side.
+double secondsToWrite(const CompiledScene& scene) {
+    constexpr double kPerPixel = 1.5e-6, kPerLayer = 0.3e-6, kEver = 0.1;
+    return kEver + static_cast<double>(scene.cropSize.x) * scene.cropSize.y *
+                       (kPerPixel + kPerLayer * scene.constants.depthLayers);
+}
+
+RenderTargets targetsOf(const RenderArguments& arguments, const CompiledScene& scene) {
+    RenderTargets targets{.error = arguments.error, .norm = arguments.errorNorm, .deadline = {}};
+    if (arguments.seconds)
+        targets.deadline =
+            processStart() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                 std::chrono::duration<double>(*arguments.seconds - secondsToWrite(scene)));
+    return targets;
+}
+
+/// Pictures on the way, if asked for.
+IntermediateFiles intermediateFiles(const RenderArguments& arguments, const RenderOutputs& outputs) {
+    if (!arguments.saveSeconds) return {};
+    return {.seconds = *arguments.saveSeconds,
+            .write = [outputs](const RenderOutcome& outcome) { return outputs.write(outcome).png; }};
+}
+
 RenderOutcome runBackend(const RenderArguments& arguments, gpu::Device* device, const CompiledScene& scene,
-                         const RenderSettings& settings, Interruption& interruption, ProgressDisplay& progress) {
+                         const RenderSettings& settings, const RenderOutputs& outputs, Interruption& interruption,
+                         ProgressDisplay& progress) {
     switch (arguments.backend) {
         case Backend::Reference:
             return renderWithReference<float>(scene, settings, interruption, progress);
@@ -144,32 +152,8 @@ RenderOutcome runBackend(const RenderArguments& arguments, gpu::Device* device, 
         case Backend::Vulkan:
             break;
     }
-    return renderWithVulkan(*device, scene, settings, interruption, progress);
-}
-
-RenderReport makeReport(const RenderArguments& arguments, const OutputFiles& files, const CompiledScene& scene,
-                        const RenderSettings& settings, const RenderOutcome& outcome,
-                        std::vector<CloudBakeReport> clouds) {
-    return {.scene = arguments.scene.file,
-            .exr = files.exr.string(),
-            .png = files.png.string(),
-            .backend = nameOf(arguments.backend),
-            .device = outcome.device,
-            .driver = outcome.driver,
-            .filmSize = scene.filmSize,
-            .cropOffset = scene.cropOffset,
-            .cropSize = scene.cropSize,
-            .samples = outcome.film.samples,
-            .samplesWanted = settings.sampleCount,
-            .seed = settings.seed,
-            .prepareSeconds = outcome.prepareSeconds,
-            .seconds = outcome.seconds,
-            .relativeError = estimateRelativeError(outcome.film),
-            .effects = settings.effects,
-            .quality = settings.quality,
-            .counters = outcome.film.counters,
-            .clouds = std::move(clouds),
-            .notes = scene.notes};
+    return renderWithVulkan(*device, scene, settings, targetsOf(arguments, scene),
+                            intermediateFiles(arguments, outputs), interruption, progress);
 }
 
 /// The device stops the render itself on these; the reference leaves them to its caller.
@@ -206,20 +190,14 @@ int runRenderCommand(const RenderArguments& arguments) {
     if (!arguments.quiet)
         for (const std::string& note : scene.notes) fmt::print(stderr, "parhelion: note: {}\n", note);
     ProgressDisplay progress(stderr, arguments.quiet);
-    const RenderOutcome outcome = runBackend(arguments, device.get(), scene, settings, interruption, progress);
+    const RenderOutputs outputs{arguments, files, scene, settings, clouds, interruption};
+    const RenderOutcome outcome = runBackend(arguments, device.get(), scene, settings, outputs, interruption, progress);
     requireCompleteTraversals(outcome.film);
     if (outcome.film.samples == 0) {
         fmt::print(stderr, "parhelion: interrupted before the first samples were done; nothing was written\n");
         return kExitInterrupted;
     }
-    RenderReport report = makeReport(arguments, files, scene, settings, outcome, std::move(clouds));
-    Image image = toImage(outcome.film, &report.range);
-    addAttributes(report, image);
-    {
-        const auto lock = interruption.holdOff();
-        writeExr(files.exr, image);
-        writePng(files.png, image, arguments.exposure);
-    }
+    const RenderReport report = outputs.write(outcome);
     if (arguments.json)
         printJson(toJson(report));
     else if (!arguments.quiet)

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "analysis/error_monitor.h"
 #include "app/options.h"
 #include "compile/render_settings.h"
 
@@ -19,6 +20,11 @@ struct RenderArguments {
     SceneArguments scene;
     std::string output;
     std::optional<std::int64_t> sampleCount, maxDepth, depthLayers;
+    std::optional<double> error;    ///< to be reached, a share of 1
+    std::optional<double> seconds;  ///< of the whole process
+    ErrorNorm errorNorm = ErrorNorm::Rms;
+    std::optional<double> saveSeconds;  ///< between files that are written on the way
+    std::string report;                 ///< .html or .json, or empty
     std::optional<PixelRect> crop;
     std::optional<std::int64_t> seed;
     std::uint32_t featureSamples = 16;

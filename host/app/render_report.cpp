@@ -7,6 +7,7 @@
 #include "app/cloud_reports.h"
 #include "app/effect_names.h"
 #include "app/text_format.h"
+#include "base/files.h"
 
 namespace parhelion::app {
 
@@ -31,7 +32,7 @@ constexpr CounterName kCounterNames[] = {
 }  // namespace
 
 double RenderReport::samplesPerSecond() const {
-    const double taken = static_cast<double>(samples) * cropSize.x * cropSize.y;
+    const double taken = samplesPerPixel * cropSize.x * cropSize.y;
     return seconds > 0 ? taken / seconds : 0;
 }
 
@@ -56,6 +57,8 @@ void addAttributes(const RenderReport& report, Image& image) {
     attributes["parhelion.quality"] = qualityKey(report.quality);
     for (const auto& [counter, identifier, meaning] : kCounterNames)
         attributes[fmt::format("parhelion.{}", identifier)] = static_cast<std::int64_t>(report.counters[counter]);
+    addAttributes(report.error, image);
+    attributes["parhelion.endedBy"] = std::string(nameOf(report.endedBy));
     attributes["parhelion.aboveRange"] = static_cast<std::int64_t>(report.range.above);
     attributes["parhelion.belowRange"] = static_cast<std::int64_t>(report.range.below);
 }
@@ -79,7 +82,10 @@ nlohmann::ordered_json toJson(const RenderReport& report) {
         {"prepareSeconds", report.prepareSeconds},
         {"seconds", report.seconds},
         {"samplesPerSecond", report.samplesPerSecond()},
+        {"samplesPerPixel", report.samplesPerPixel},
+        {"endedBy", nameOf(report.endedBy)},
         {"relativeError", nullptr},
+        {"error", toJson(report.error)},
         {"effects", effectsKey(report.effects)},
         {"quality", qualityKey(report.quality)},
         {"anomalies", report.hasAnomalies()},
@@ -87,7 +93,8 @@ nlohmann::ordered_json toJson(const RenderReport& report) {
         {"clouds", toJson(report.clouds)},
         {"notes", report.notes},
     };
-    if (report.relativeError) json["relativeError"] = *report.relativeError;
+    if (report.error.estimate && report.error.estimate->isFinite)
+        json["relativeError"] = report.error.estimate->rms.value;
     for (const auto& [counter, identifier, meaning] : kCounterNames)
         json["counters"][identifier] = report.counters[counter];
     json["counters"]["aboveRange"] = report.range.above;
@@ -103,12 +110,10 @@ std::string describe(const RenderReport& report) {
     text += fmt::format("device    {} ({})\n", report.device, report.driver);
     text += fmt::format("time      {} rendering, {} preparing\n", formatDuration(report.seconds),
                         formatDuration(report.prepareSeconds));
-    text +=
-        fmt::format("samples   {} per pixel, {} samples/s\n", report.samples, formatCount(report.samplesPerSecond()));
+    text += fmt::format("samples   {:.6g} per pixel, {} samples/s; ended by {}\n", report.samplesPerPixel,
+                        formatCount(report.samplesPerSecond()), nameOf(report.endedBy));
     text += describe(report.clouds);
-    if (report.relativeError)
-        text += fmt::format("error     {} of the image's mean, by its own variance\n",
-                            formatPercent(*report.relativeError));
+    text += describe(report.error);
     for (const auto& [counter, identifier, meaning] : kCounterNames)
         if (report.counters[counter] > 0)
             text +=
@@ -121,6 +126,14 @@ std::string describe(const RenderReport& report) {
             fmt::format("counted   {} means or variances too small for single precision; variances are bounds there\n",
                         formatCount(static_cast<double>(report.range.below)));
     return text;
+}
+
+void writeErrorReport(const RenderReport& report, const std::filesystem::path& file) {
+    const bool isPage = file.extension() == ".html";
+    const std::string text =
+        isPage ? errorPage(report)
+               : toJson(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    writeAtomically(file, text);
 }
 
 }  // namespace parhelion::app

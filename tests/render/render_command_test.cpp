@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/files.h"
 #include "image/image.h"
 #include "support/paths.h"
 #include "support/run_program.h"
@@ -104,6 +105,66 @@ TEST_F(RenderCommand, ReportsAsJson) {
     EXPECT_EQ(report["anomalies"], false);
     EXPECT_EQ(report["counters"]["pathsFinished"], 8 * 4 * 4);
     EXPECT_GT(report["relativeError"], 0.0);
+}
+
+double attribute(const Image& image, const std::string& name) { return std::get<double>(image.attributes.at(name)); }
+
+TEST_F(RenderCommand, KnowsItsError) {
+    for (const std::string backend : {"vulkan", "reference"}) {
+        const Image image = render("out.exr", {"--spp", "64", "--backend", backend, "--report", "error.json"});
+        const json report = json::parse(readTextFile(folder_.path() / "error.json"));
+        const json& estimate = report["error"]["estimate"];
+        EXPECT_EQ(attribute(image, "parhelion.error"), estimate["rms"]["value"].get<double>());
+        EXPECT_GT(estimate["rms"]["upper"], estimate["rms"]["value"]);
+        EXPECT_LT(estimate["rms"]["lower"], estimate["rms"]["value"]);
+        for (const std::string channel : {"R", "G", "B", "Y"}) {
+            EXPECT_LE(estimate["mean"][channel]["lower"], estimate["mean"][channel]["value"]);
+            EXPECT_GE(estimate["mean"][channel]["upper"], estimate["mean"][channel]["value"]);
+        }
+        EXPECT_GE(report["error"]["checks"].size(), 10u);
+        // The layers: an interval around every pixel, which is 1 or 0 trusted.
+        const auto &halfWidth = image.channels.at("error.Y"), &trust = image.channels.at("trust.Y");
+        double trusted = 0;
+        for (std::size_t i = 0; i < trust.size(); ++i) {
+            EXPECT_TRUE(trust[i] == 0 || trust[i] == 1);
+            EXPECT_TRUE(std::isfinite(halfWidth[i]) && halfWidth[i] >= 0);
+            trusted += trust[i] / double(trust.size());
+        }
+        EXPECT_NEAR(trusted, estimate["pixels"]["trusted"].get<double>(), 1e-6);
+    }
+}
+
+TEST_F(RenderCommand, RendersToAnError) {
+    render("out.exr", {"--error", "4%", "--report", "error.json"});
+    const json report = json::parse(readTextFile(folder_.path() / "error.json"));
+    EXPECT_EQ(report["endedBy"], "error");
+    EXPECT_LE(report["error"]["controlError"], 0.04);
+    EXPECT_NEAR(report["error"]["estimate"]["rms"]["value"].get<double>(), 0.04, 0.015);
+    EXPECT_GE(report["error"]["checkpoints"].size(), 2u);
+    const Image same = readExr(folder_.path() / "out.exr");
+    // The image is that of so many samples asked for.
+    const std::string samples = std::to_string(report["samples"].get<int>());
+    EXPECT_EQ(render("same.exr", {"--spp", samples}).channels.at("R"), same.channels.at("R"));
+}
+
+TEST_F(RenderCommand, EndsAtTheMaximumOrInTime) {
+    render("out.exr", {"--error", "0.01%", "--spp", "50", "--report", "error.json"});
+    json report = json::parse(readTextFile(folder_.path() / "error.json"));
+    EXPECT_EQ(report["endedBy"], "samples");
+    EXPECT_EQ(report["samples"], 50);
+    EXPECT_GT(report["error"]["samplesForTarget"], 50.0);
+    render("out.exr", {"--error", "0.001%", "--time", "4s", "--report", "error.json"});
+    report = json::parse(readTextFile(folder_.path() / "error.json"));
+    EXPECT_EQ(report["endedBy"], "time");
+    EXPECT_GT(report["samples"], 16);
+}
+
+TEST_F(RenderCommand, WritesAPageAboutTheError) {
+    render("out.exr", {"--spp", "64", "--report", "error.html"});
+    const std::string page = readTextFile(folder_.path() / "error.html");
+    EXPECT_EQ(page.rfind("<!doctype html>", 0), 0u);
+    EXPECT_NE(page.find("Can it be trusted?"), std::string::npos);
+    for (const std::string outside : {"http:", "https:", "<script"}) EXPECT_EQ(page.find(outside), std::string::npos);
 }
 
 TEST_F(RenderCommand, PrintsErrorsOnlyWhenQuiet) {

@@ -62,6 +62,26 @@ std::vector<BadUsage> badValues() {
     };
 }
 
+std::vector<BadUsage> badTargets() {
+    return {
+        badRender("ErrorOfNothing", {"--error", "0%"},
+                  "--error: expected a share as 1%, 0.5% or 0.01, from 1e-7% to 100%; got 0%\n"),
+        badRender("ErrorOfTwice", {"--error", "2"}, "--error: expected a share as 1%"),
+        badRender("ErrorNoNumber", {"--error", "%"}, "--error: expected a share as 1%"),
+        badRender("ErrorNotFinite", {"--error", "nan%"}, "--error: expected a share as 1%"),
+        badRender("ErrorNormUnknown", {"--error-norm", "max"},
+                  "--error-norm: expected mean|pixels|relmse|rms; got max\n"),
+        badRender("TimeOfNothing", {"--time", "0s"},
+                  "--time: expected a time as 30s, 5m or 2h, from 0.01s to 1e7s; got 0s\n"),
+        badRender("TimeWithoutNumber", {"--time", "m"}, "--time: expected a time as 30s"),
+        badRender("TimeInDays", {"--time", "1d"}, "--time: expected a time as 30s"),
+        badRender("ErrorForReference", {"--error", "1%", "--backend", "reference"},
+                  "--error: only --backend vulkan has it; got --backend reference\n"),
+        badRender("TimeForReference", {"--time", "5s", "--backend", "reference"},
+                  "--time: only --backend vulkan has it; got --backend reference\n"),
+    };
+}
+
 std::vector<BadUsage> badUses() {
     return {
         {"NoCommand", {}, "subcommand"},
@@ -76,6 +96,9 @@ std::vector<BadUsage> badUses() {
         badRender("LayersBeyondMemory", {"--size", "8192x8192", "--depth-layers", "64"},
                   "film of 8192x8192 with 64 depth layers needs "),
         badRender("NoExr", {"-o", "image.jpg"}, ".exr"),
+        badRender("ReportOfUnknownKind", {"--report", "report.txt"},
+                  "--report: expected a name that ends in .html or .json"),
+        badRender("ReportInMissingFolder", {"--report", "missing/report.html"}, "missing/report.html"),
         badRender("OutputInMissingFolder", {"-o", "missing/image.exr"}, "missing/image.exr"),
         badRender("OutputIsFolder", {"-o", "folder.exr"}, "folder.exr"),
         badRender("OutputBelowFile", {"-o", "scene.xml/image.exr"}, "scene.xml/image.exr"),
@@ -115,6 +138,7 @@ TEST_P(CommandLine, RefusesBadUsage) {
 
 const auto kUsageName = [](const auto& info) { return info.param.name; };
 INSTANTIATE_TEST_SUITE_P(Values, CommandLine, testing::ValuesIn(badValues()), kUsageName);
+INSTANTIATE_TEST_SUITE_P(Targets, CommandLine, testing::ValuesIn(badTargets()), kUsageName);
 INSTANTIATE_TEST_SUITE_P(Uses, CommandLine, testing::ValuesIn(badUses()), kUsageName);
 
 TEST(CommandLineHelp, ShowsExamplesForEveryCommand) {
