@@ -63,7 +63,7 @@ double errorBy(ErrorNorm norm, const FilmError& error) {
 
 void ErrorMonitor::add(const Film& film, double seconds) {
     if (film.samples < 2 || (!checkpoints_.empty() && film.samples <= checkpoints_.back().samples)) return;
-    const auto control = estimateControlError(film), own = estimateFilmError(film);
+    const auto control = estimateControlError(film), own = estimateMeanError(film);
     ErrorCheckpoint point{.samples = film.samples, .seconds = seconds, .error = kInfinity};
     if (control) point.error = errorBy(norm_, *control);
     if (own && own->isFinite) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/pixel_trust.h"
+#include "analysis/film_observations.h"
 #include "analysis/statistics.h"
 #include "analysis/tail_slope.h"
 #include "analysis/variance_factors.h"
@@ -16,69 +16,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kArithmetic = 0x1p-20;  // that float may do to a mean, relative
 constexpr double kCovered = 0.975;       // of a two-sided 95 %
 
-/// A pixel of the image, or one that stands for several.
-struct Observation {
-    const shared::FilmPixel* pixel = nullptr;
-    std::uint64_t samples = 0;
-    double factor = 1;   ///< VarianceFactors::near
-    double weight = 1;   ///< pixels that it stands for
-    glm::uvec2 cell{0};  ///< of pixels near it
-};
-
-/// Observations of an image and how they lie.
-struct Observations {
-    std::vector<Observation> all;
-    glm::uvec2 grid{1};        ///< cells
-    std::uint32_t radius = 1;  ///< of a neighbourhood, cells
-
-    JudgedPixel judged(std::size_t i) const {
-        return {momentsOf(*all[i].pixel, all[i].samples), all[i].factor, all[i].cell};
-    }
-};
-
-constexpr std::uint32_t kCellEdge = 8;  // pixels
-
-Observations observeImage(const Film& film, const VarianceFactors& factors) {
-    Observations observations{.all = {}, .grid = (film.crop.size + kCellEdge - 1u) / kCellEdge};
-    observations.all.reserve(film.pixels.size());
-    const std::uint32_t width = film.crop.size.x;
-    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        const glm::uvec2 pixel(i % width, i / width);
-        observations.all.push_back({.pixel = &film.pixels[i],
-                                    .samples = film.pixelSamples.empty() ? film.samples : film.pixelSamples[i],
-                                    .factor = factors.near(pixel),
-                                    .weight = 1,
-                                    .cell = pixel / kCellEdge});
-    }
-    return observations;
-}
-
-Observations observeControls(const Film& film, const VarianceFactors& factors) {
-    const std::uint32_t edge = film.controlTileEdge;
-    Observations observations{.all = {}, .grid = (film.crop.size + edge - 1u) / edge, .radius = 2};
-    const double all = static_cast<double>(film.pixels.size());
-    double weights = 0;
-    for (const ControlPixel& control : film.controls) {
-        const glm::uvec2 pixel(control.pixel % film.crop.size.x, control.pixel / film.crop.size.x), cell = pixel / edge;
-        const glm::uvec2 extent = glm::min(glm::uvec2(edge), film.crop.size - cell * edge);
-        const double weight = static_cast<double>(extent.x * extent.y) / shared::kControlRuns;
-        for (const shared::FilmPixel& run : control.runs) {
-            observations.all.push_back({&run, film.samples, factors.near(pixel), weight, cell});
-            weights += weight;
-        }
-    }
-    for (Observation& observation : observations.all) observation.weight *= all / weights;
-    return observations;
-}
-
 /// Sums over observations, from which all follows.
 struct Sums {
     double weight = 0;
     std::array<double, 4> mean{}, variance{};  ///< by channel; variances as of independent samples
     double varianceSquares = 0;                ///< of the luminance's variances: sum of their own variances
+    double squares = 0;                        ///< of the luminance's variances
     double spreadSquares = 0;                  ///< the same, as the observations differ from each other
     double largestDeviation = 0;
-    double largestWeight = 0;  ///< of that sample in the image's mean
     bool isFinite = true;
 };
 
@@ -93,6 +38,7 @@ void add(Sums& sums, const Observation& o, const PixelMoments& moments) {
     sums.mean[3] += o.weight * moments.mean;
     sums.variance[3] += variance;
     sums.varianceSquares += variance * variance * moments.varianceOfVariance();
+    sums.squares += variance * variance / o.weight;
     sums.spreadSquares += variance * variance;
     sums.isFinite =
         sums.isFinite && moments.isFinite && std::isfinite(sums.variance[0] + sums.variance[1] + sums.variance[2]);
@@ -154,15 +100,17 @@ void judgePixels(const Observations& observations, FilmError& error) {
     error.pixelsSpiky = std::max(0.0, 1 - error.pixelsTrusted - error.pixelsDark);
 }
 
-double relativeMseOf(std::span<const Observation> observations, double weight) {
+double relativeMseOf(std::span<const Observation> observations) {
     const double median = medianMean(observations), epsilon = 0.01 * median * 0.01 * median;
-    double sum = 0;
-    for (const Observation& o : observations)
+    double sum = 0, weight = 0;
+    for (const Observation& o : observations) {
+        weight += o.weight;
         for (int c = 0; c < 3; ++c) {
             const double variance = o.factor * varianceOfMean(*o.pixel, c, o.samples),
                          mean = meanOf(*o.pixel, c, o.samples);
             if (variance > 0) sum += o.weight * variance / (mean * mean + epsilon);
         }
+    }
     return sum / (3 * weight);
 }
 
@@ -176,10 +124,10 @@ double tailSlopeOf(std::span<const Observation> observations) {
     return tailSlope(std::move(deviations));
 }
 
+/// The image's mean and the root mean square error alone.
 /// @param census  the observations are the image; otherwise a sample of it, of which each pixel has kControlRuns.
-std::optional<FilmError> errorOf(const Observations& observed, const VarianceFactors& factors, double pixels,
-                                 double unit, bool census) {
-    const std::span<const Observation> observations = observed.all;
+std::optional<FilmError> meanErrorOf(std::span<const Observation> observations, const VarianceFactors& factors,
+                                     double pixels, double unit, bool census) {
     Sums sums;
     std::uint64_t least = ~0ull;
     for (const Observation& o : observations) {
@@ -208,12 +156,21 @@ std::optional<FilmError> errorOf(const Observations& observed, const VarianceFac
         if (c == 3 && half > 0) error.largestOnceMore = sums.largestDeviation / pixels / half;
     }
     // The sum of squared errors of this image: normal ones, whose squares have a variance of twice their own squared.
-    const double realised = total > 0 ? 2 * sums.spreadSquares / total * (census ? 1 : sums.weight / pixels) : 0;
+    const double realised = total > 0 ? 2 * sums.squares / total : 0;
     error.rms = rootOf(variance / (mean * mean), uncertainty + realised);
-    const Interval root = rootOf(relativeMseOf(observations, sums.weight), uncertainty + realised);
-    error.relativeMse = {root.value * root.value, root.lower * root.lower, root.upper * root.upper};
-    error.tailSlope = tailSlopeOf(observations);
-    judgePixels(observed, error);
+    return error;
+}
+
+/// All of it. As uncertain as the root mean square error is that relative to each pixel.
+std::optional<FilmError> errorOf(const Observations& observed, const VarianceFactors& factors, double pixels,
+                                 double unit, bool census) {
+    std::optional<FilmError> error = meanErrorOf(observed.all, factors, pixels, unit, census);
+    if (!error || !error->isFinite) return error;
+    const double square = relativeMseOf(observed.all);
+    const double reach = error->rms.value > 0 ? std::pow(error->rms.upper / error->rms.value, 2) : 1;
+    error->relativeMse = {square, square / reach, square * reach};
+    error->tailSlope = tailSlopeOf(observed.all);
+    judgePixels(observed, *error);
     return error;
 }
 
@@ -254,6 +211,12 @@ std::optional<FilmError> estimateFilmError(const Film& film) {
     const VarianceFactors factors(film, true);
     const auto observations = observeImage(film, factors);
     return errorOf(observations, factors, static_cast<double>(film.pixels.size()), film.radianceUnit, true);
+}
+
+std::optional<FilmError> estimateMeanError(const Film& film) {
+    const VarianceFactors factors(film, true);
+    return meanErrorOf(observeImage(film, factors).all, factors, static_cast<double>(film.pixels.size()),
+                       film.radianceUnit, true);
 }
 
 std::optional<FilmError> estimateControlError(const Film& film) {

@@ -60,6 +60,10 @@ struct FilmError {
 /// bound. Nothing for a film with less than two samples in a pixel, and for a black one.
 std::optional<FilmError> estimateFilmError(const Film& film);
 
+/// Only `samples`, `mean`, `rms`, `varianceOfVariance`, `largestOnceMore` and `isFinite`: what takes one pass over the
+/// film.
+std::optional<FilmError> estimateMeanError(const Film& film);
+
 /// The same of the image, from nothing but the control pixels: a decision that depends on it does not depend on the
 /// image's own samples, so that it cannot bias them.
 std::optional<FilmError> estimateControlError(const Film& film);

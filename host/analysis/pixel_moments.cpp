@@ -30,7 +30,8 @@ PixelMoments momentsOf(const shared::FilmPixel& pixel, std::uint64_t samples) {
     PixelMoments moments;
     if (samples == 0) return moments;
     const double n = static_cast<double>(samples);
-    const glm::dvec3 powers = (glm::dvec3(pixel.powerHigh) + glm::dvec3(pixel.powerLow)) / n;
+    const glm::dvec2 sums = (glm::dvec2(pixel.powerHigh) + glm::dvec2(pixel.powerLow)) / n;
+    const glm::dvec3 powers(sums, double{pixel.third} / n);
     const double fourth = double{pixel.fourth} / n, d = powers.x;
     moments.samples = n;
     moments.mean = pixel.pivot + d;

@@ -5,6 +5,15 @@
 #include "shared/path_types.h"
 
 // Adds `value` to sum = high + low.
+void addCompensated(inout vec2 high, inout vec2 low, vec2 value) {
+    precise vec2 y = value + low;
+    precise vec2 t = high + y;
+    precise vec2 taken = t - high;
+    precise vec2 rest = y - taken;
+    high = t;
+    low = rest;
+}
+
 void addCompensated(inout vec3 high, inout vec3 low, vec3 value) {
     precise vec3 y = value + low;
     precise vec3 t = high + y;
@@ -31,7 +40,8 @@ void accumulate(inout FilmPixel pixel, vec3 radiance, bool first) {
     float y = luminance(radiance);
     pixel.pivot = first ? y : pixel.pivot;
     precise float d = y - pixel.pivot, square = d * d, cube = square * d, fourth = square * square;
-    addCompensated(pixel.powerHigh, pixel.powerLow, vec3(d, square, cube));
+    addCompensated(pixel.powerHigh, pixel.powerLow, vec2(d, square));
+    pixel.third += cube;
     pixel.fourth += fourth;
     pixel.largest = max(pixel.largest, y);
 }

@@ -9,19 +9,20 @@ SHARED_BEGIN
 // A sample whose channels are not all below this is dropped and counted: its square would leave the range of float. 2^63
 SHARED_CONST(float, kLargestSample, 9223372036854775808.0f);
 
-// Sums over a pixel's samples; those in two parts are compensated: value = high + low (Kahan). 84 bytes a pixel.
+// Sums over a pixel's samples; those in two parts are compensated: value = high + low (Kahan). 80 bytes a pixel.
 struct FilmPixel {
     vec3 sumHigh;
     vec3 sumLow;
     vec3 squareHigh;  // of the squared samples, per channel
     vec3 squareLow;
-    vec3 powerHigh;   // of d, d^2 and d^3, d being a sample's luminance less `pivot`
-    vec3 powerLow;
+    vec2 powerHigh;   // of d and d^2, d being a sample's luminance less `pivot`
+    vec2 powerLow;
+    float third;      // of d^3
     float fourth;     // of d^4
     float pivot;      // luminance of the pixel's first sample: where samples hardly differ, their powers would cancel
     float largest;    // luminance of the brightest sample
 };
-SHARED_LAYOUT(FilmPixel, 84);
+SHARED_LAYOUT(FilmPixel, 80);
 
 // A film layer's share of a pixel: what paths of one number of scatterings bring. Layer k of pixel p is
 // at p * SceneConstants.depthLayers + k.

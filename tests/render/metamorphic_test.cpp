@@ -136,8 +136,9 @@ TEST(Metamorphic, BrighteningTheLightsByPowersOfTwoScalesTheFilmExactly) {
             pixel.sumLow /= s;
             pixel.squareHigh /= s * s;
             pixel.squareLow /= s * s;
-            pixel.powerHigh /= glm::vec3(s, s * s, s * s * s);
-            pixel.powerLow /= glm::vec3(s, s * s, s * s * s);
+            pixel.powerHigh /= glm::vec2(s, s * s);
+            pixel.powerLow /= glm::vec2(s, s * s);
+            pixel.third /= s * s * s;
             pixel.fourth /= s * s * s * s;
             pixel.pivot /= s;
             pixel.largest /= s;
@@ -161,8 +162,8 @@ CompiledScene turnChannels(CompiledScene scene) {
 /// Without the moments of the luminance, in which channels differ.
 Film withoutMoments(Film film) {
     for (shared::FilmPixel& p : film.pixels) {
-        p.powerHigh = p.powerLow = glm::vec3(0);
-        p.fourth = p.pivot = p.largest = 0;
+        p.powerHigh = p.powerLow = glm::vec2(0);
+        p.third = p.fourth = p.pivot = p.largest = 0;
     }
     return film;
 }

@@ -56,7 +56,7 @@ TEST(SharedLayout, FilmPixelIsTheSameInBothLanguages) {
     using Type = shared::FilmPixel;
     expectLayout("FilmPixel", sizeof(Type),
                  {MEMBER(sumHigh), MEMBER(sumLow), MEMBER(squareHigh), MEMBER(squareLow), MEMBER(powerHigh),
-                  MEMBER(powerLow), MEMBER(fourth), MEMBER(pivot), MEMBER(largest)});
+                  MEMBER(powerLow), MEMBER(third), MEMBER(fourth), MEMBER(pivot), MEMBER(largest)});
 }
 
 TEST(SharedLayout, LayerPixelIsTheSameInBothLanguages) {

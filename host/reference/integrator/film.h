@@ -54,9 +54,11 @@ void accumulate(shared::FilmPixel& pixel, Vec3<Real> radiance, bool first, Count
     const Real y = luminance(radiance);
     if (first) pixel.pivot = float(y);
     const Real d = y - Real(pixel.pivot);
-    const Real powers[] = {d, d * d, d * d * d};
-    for (int k = 0; k < 3; ++k) addCompensated(pixel.powerHigh[k], pixel.powerLow[k], powers[k]);
-    pixel.fourth += float(powers[1] * powers[1]);
+    const Real square = d * d;
+    addCompensated(pixel.powerHigh.x, pixel.powerLow.x, d);
+    addCompensated(pixel.powerHigh.y, pixel.powerLow.y, square);
+    pixel.third += float(square * d);
+    pixel.fourth += float(square * square);
     pixel.largest = std::max(pixel.largest, float(y));
 }
 
