@@ -30,6 +30,13 @@ double slopeOf(std::span<const ErrorCheckpoint> points, double (*x)(const ErrorC
 double logSamples(const ErrorCheckpoint& p) { return std::log(double(p.samples)); }
 double logError(const ErrorCheckpoint& p) { return std::log(p.error); }
 
+/// Error after `ratio` times the samples, relative to that now. What falls faster than 1/sqrt(n) does so the less the
+/// more samples there are: the excess is taken to halve with each four times the samples, as between a smooth
+/// integrand, for which it stays, and an edge or a volume, where it ends.
+double fallOver(double ratio, double slope) {
+    return std::exp(-0.5 * std::log(ratio) + 2 * (slope + 0.5) * (1 - 1 / std::sqrt(ratio)));
+}
+
 }  // namespace
 
 const char* nameOf(ErrorNorm norm) {
@@ -87,13 +94,19 @@ double ErrorMonitor::slope() const {
 std::optional<double> ErrorMonitor::errorAt(double samples) const {
     if (checkpoints_.empty() || !std::isfinite(checkpoints_.back().error)) return std::nullopt;
     const ErrorCheckpoint& last = checkpoints_.back();
-    return last.error * std::pow(samples / double(last.samples), slope());
+    return last.error * fallOver(samples / double(last.samples), slope());
 }
 
 std::optional<double> ErrorMonitor::samplesFor(double target) const {
     if (checkpoints_.empty() || !std::isfinite(checkpoints_.back().error)) return std::nullopt;
     const ErrorCheckpoint& last = checkpoints_.back();
-    return double(last.samples) * std::pow(std::max(last.error, 1e-300) / target, -1 / slope());
+    const double wanted = target / std::max(last.error, 1e-300), ofSlope = slope();
+    double low = 1e-6, high = 1e12;  // times the samples so far; the fall over them is monotonic
+    while (high > low * (1 + 1e-9)) {
+        const double middle = std::sqrt(low * high);
+        (fallOver(middle, ofSlope) > wanted ? low : high) = middle;
+    }
+    return double(last.samples) * high;
 }
 
 std::optional<double> ErrorMonitor::secondsAt(double samples) const {

@@ -6,8 +6,8 @@
 namespace parhelion {
 namespace {
 
-constexpr std::uint64_t kPilot = 16;
-constexpr double kMostGrowth = 8;      // the further a prediction reaches, the less is it worth
+constexpr std::uint64_t kPilot = 4;
+constexpr double kMostGrowth = 4;      // the further a prediction reaches, the less is it worth
 constexpr double kLeastGrowth = 1.02;  // each look at the error makes the device wait for its slowest lane
 
 }  // namespace

@@ -81,7 +81,9 @@ struct Run {
     }
 };
 
-/// Says once what the target will cost.
+constexpr std::uint64_t kPilot = 16, kLongPilot = 64;  // samples after which there is a prediction
+
+/// Says what the target will cost.
 void predict(Run& run, double error) {
     const auto samples = run.monitor.samplesFor(error);
     if (!samples || run.monitor.checkpoints().back().error <= error) return;
@@ -92,9 +94,11 @@ void predict(Run& run, double error) {
 }
 
 EndedBy renderToError(Run& run, double error, std::uint64_t maximum) {
-    int rounds = 0;
     const auto renderTo = [&](std::uint64_t samples) {
-        if (++rounds == 2) predict(run, error);
+        if (!run.monitor.checkpoints().empty()) {
+            const std::uint64_t now = run.monitor.checkpoints().back().samples;
+            if (now == kPilot || now == kLongPilot) predict(run, error);
+        }
         run.renderer.setSampleCount(samples);
         run.advance();
         return run.renderer.filmSoFar();
