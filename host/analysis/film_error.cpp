@@ -143,7 +143,7 @@ std::optional<FilmError> meanErrorOf(std::span<const Observation> observations, 
     const double own = total > 0 ? sums.varianceSquares / total : 0;
     const double drawn = census || total == 0 ? 0 : shared::kControlRuns * sums.spreadSquares / total;
     const double uncertainty = own + factors.uncertainty() + drawn;
-    error.varianceOfVariance = own + factors.uncertainty();
+    error.varianceOfVariance = own;
     const double freedom = uncertainty > 0 ? std::max(1.0, 2 / uncertainty) : kInfinity;
     const double reach = studentQuantile(kCovered, freedom);
     double variance = 0, mean = 0;
