@@ -72,7 +72,10 @@ void ErrorMonitor::add(const Film& film, double seconds) {
     if (film.samples < 2 || (!checkpoints_.empty() && film.samples <= checkpoints_.back().samples)) return;
     const auto control = estimateControlError(film), own = estimateMeanError(film);
     ErrorCheckpoint point{.samples = film.samples, .seconds = seconds, .error = kInfinity};
-    if (control) point.error = errorBy(norm_, *control);
+    if (control) {
+        point.error = errorBy(norm_, *control);
+        point.controlVov = control->varianceOfVariance;
+    }
     if (own && own->isFinite) {
         point.mean = own->mean[3].value;
         point.meanError = own->meanRelative() / normalQuantile(0.975);
@@ -100,13 +103,14 @@ std::optional<double> ErrorMonitor::errorAt(double samples) const {
 std::optional<double> ErrorMonitor::samplesFor(double target) const {
     if (checkpoints_.empty() || !std::isfinite(checkpoints_.back().error)) return std::nullopt;
     const ErrorCheckpoint& last = checkpoints_.back();
+    if (!(last.error > 0)) return std::nullopt;  // nothing to extrapolate
     const double wanted = target / std::max(last.error, 1e-300), ofSlope = slope();
     double low = 1e-6, high = 1e12;  // times the samples so far; the fall over them is monotonic
     while (high > low * (1 + 1e-9)) {
         const double middle = std::sqrt(low * high);
         (fallOver(middle, ofSlope) > wanted ? low : high) = middle;
     }
-    return double(last.samples) * high;
+    return high < 1e11 ? std::optional(double(last.samples) * high) : std::nullopt;
 }
 
 std::optional<double> ErrorMonitor::secondsAt(double samples) const {

@@ -28,6 +28,7 @@ struct ErrorCheckpoint {
     double mean = 0;            ///< of the image's luminance, radiance
     double meanError = 0;       ///< standard error of that over it
     double varianceOfVariance = 0;
+    double controlVov = 1;  ///< variance of the variance that the control pixels go by
 };
 
 /// The error of a render as it goes on: what a progress display shows, a stopping rule decides on and a report judges.

@@ -37,7 +37,7 @@ void add(Sums& sums, const Observation& o, const PixelMoments& moments) {
     const double variance = o.weight * moments.variance / moments.samples;
     sums.mean[3] += o.weight * moments.mean;
     sums.variance[3] += variance;
-    sums.varianceSquares += variance * variance * moments.varianceOfVariance();
+    if (variance > 0) sums.varianceSquares += variance * variance * 2 / moments.degreesOfFreedom();
     sums.squares += variance * variance / o.weight;
     sums.spreadSquares += variance * variance;
     sums.isFinite =

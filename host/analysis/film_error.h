@@ -43,7 +43,7 @@ struct FilmError {
     double pixelsWithin = 0;   ///< share of all pixels whose interval can be trusted and is within 1 % of them
     double pixelsTrusted = 0;  ///< share of pixels whose interval can be trusted
     double pixelsDark = 0;     ///< share of pixels that got nothing but zeros
-    double pixelsSpiky = 0;    ///< share of the others that cannot be trusted
+    double pixelsSpiky = 0;    ///< share that is not dark, and cannot be trusted
     /// 95 % quantile over all pixels, those that cannot be trusted being infinitely wrong.
     double worstPixels = 0;
     double varianceOfVariance = 0;  ///< of the image's mean

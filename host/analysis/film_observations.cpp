@@ -31,8 +31,9 @@ Observations observeControls(const Film& film, const VarianceFactors& factors) {
         const glm::uvec2 pixel(control.pixel % film.crop.size.x, control.pixel / film.crop.size.x), cell = pixel / edge;
         const glm::uvec2 extent = glm::min(glm::uvec2(edge), film.crop.size - cell * edge);
         const double weight = static_cast<double>(extent.x * extent.y) / shared::kControlRuns;
+        const std::uint64_t samples = film.pixelSamples.empty() ? film.samples : film.pixelSamples[control.pixel];
         for (const shared::FilmPixel& run : control.runs) {
-            observations.all.push_back({&run, film.samples, factors.near(pixel), weight, cell});
+            observations.all.push_back({&run, samples, factors.near(pixel), weight, cell});
             weights += weight;
         }
     }

@@ -54,7 +54,10 @@ double varianceOfMean(const shared::FilmPixel& pixel, int channel, std::uint64_t
     if (samples < 2) return 0;
     const double n = static_cast<double>(samples), mean = meanOf(pixel, channel, samples);
     const double spread = (double{pixel.squareHigh[channel]} + double{pixel.squareLow[channel]}) / n - mean * mean;
-    return spread <= kRoundingOfSquares * mean * mean ? 0 : spread / (n - 1);  // NaN stays
+    if (!(spread <= kRoundingOfSquares * mean * mean)) return spread / (n - 1);  // NaN stays
+    // The squares have lost it; the luminance's powers, about the first sample, have not.
+    const PixelMoments moments = momentsOf(pixel, samples);
+    return moments.mean > 0 ? moments.variance / n * (mean / moments.mean) * (mean / moments.mean) : 0;
 }
 
 }  // namespace parhelion

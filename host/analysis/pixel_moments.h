@@ -31,8 +31,8 @@ struct PixelMoments {
 
 PixelMoments momentsOf(const shared::FilmPixel& pixel, std::uint64_t samples);
 
-/// Variance of the mean of one channel's samples if they are independent, in units of the film squared; 0 where
-/// rounding is all there is, and for one sample.
+/// Variance of the mean of one channel's samples if they are independent, in units of the film squared. Where the
+/// channel's squares hold nothing but rounding, as if it varied like the luminance; 0 for one sample.
 double varianceOfMean(const shared::FilmPixel& pixel, int channel, std::uint64_t samples);
 
 /// Mean of one channel's samples.

@@ -19,7 +19,8 @@ public:
 
     /// Samples a pixel to begin with.
     std::uint64_t pilot() const;
-    /// Samples a pixel to go on to; those of the last checkpoint when it is reached, or the maximum is.
+    /// Samples a pixel to go on to; those of the last checkpoint when the error is reached, the maximum is, or the
+    /// error stays unknown: after 1024 samples of a black image, 65536 of others.
     std::uint64_t next(const ErrorMonitor& monitor) const;
     bool isReached(const ErrorMonitor& monitor) const;
 

@@ -70,13 +70,18 @@ VarianceFactors::VarianceFactors(const Film& film, bool useImage) {
         variances[std::size_t{tile.y} * tiles_.x + tile.x] = varianceOf(film, control, useImage, tileArea(film, tile));
     }
     for (std::size_t channel = 0; channel < 4; ++channel) {
-        double among = 0, within = 0, squares = 0;
+        double among = 0, within = 0, squares = 0, ofRuns = 0;
         for (const TileVariance& v : variances) among += v.among[channel], within += v.within[channel];
         if (!(within > 0) || !std::isfinite(among)) continue;
         ofImage_[channel] = among / within;
-        for (const TileVariance& v : variances)
+        // As the tiles differ; at least what a variance of so few runs is worth, which is all there is where one tile
+        // has most of it: E[s^4] = sigma^4 (1 + 2 / (R - 1)).
+        const double runs = shared::kControlRuns + (useImage ? 1.0 : 0.0);
+        for (const TileVariance& v : variances) {
             squares += std::pow(v.among[channel] - ofImage_[channel] * v.within[channel], 2);
-        if (channel == 3 && among > 0) uncertainty_ = squares / (among * among);
+            ofRuns += 2 / (runs + 1) * v.among[channel] * v.among[channel];
+        }
+        if (channel == 3 && among > 0) uncertainty_ = std::max(squares, ofRuns) / (among * among);
     }
     constexpr double kPull = 2;  // tiles
     double mean = 0;

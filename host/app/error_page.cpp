@@ -49,7 +49,7 @@ std::string estimates(const FilmError& error) {
     line("share of all pixels known to 1 %", formatPercent(error.pixelsWithin));
     line("share whose interval can be trusted", formatPercent(error.pixelsTrusted));
     line("share that got nothing but zeros: unknown", formatPercent(error.pixelsDark));
-    line("share of the others that cannot be trusted", formatPercent(error.pixelsSpiky));
+    line("share that is lit, but unevenly: no interval can be trusted", formatPercent(error.pixelsSpiky));
     return text + "</table></div>\n<p class=soft>The first three lines are about the pixels that can be trusted.</p>\n";
 }
 

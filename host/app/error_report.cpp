@@ -57,14 +57,14 @@ nlohmann::ordered_json toJson(const FilmError& error) {
 }
 
 std::string describeTarget(const ErrorReport& report) {
-    if (!report.target || !report.controlError) return "";
-    if (*report.controlError <= *report.target)
-        return fmt::format("target    {} ({}): reached, {} by the control pixels\n", formatPercent(*report.target),
-                           nameOf(report.norm), formatPercent(*report.controlError));
-    std::string text =
-        fmt::format("target    {} ({}): not reached, {} by the control pixels", formatPercent(*report.target),
-                    nameOf(report.norm), formatPercent(*report.controlError));
-    if (report.samplesForTarget && report.secondsForTarget)
+    if (!report.target) return "";
+    const bool isKnown = report.controlError && std::isfinite(*report.controlError);
+    const bool isReached = isKnown && *report.controlError <= *report.target;
+    std::string text = fmt::format("target    {} ({}): {}reached, {}", formatPercent(*report.target),
+                                   nameOf(report.norm), isReached ? "" : "not ",
+                                   isKnown ? formatPercent(*report.controlError) + " by the control pixels"
+                                           : "the error of the control pixels is not known");
+    if (!isReached && report.samplesForTarget && report.secondsForTarget)
         text += fmt::format("; it would take {} samples per pixel, {}", formatCount(*report.samplesForTarget),
                             formatDuration(*report.secondsForTarget));
     return text + "\n";

@@ -68,8 +68,8 @@ double parseShare(const std::string& option, const std::string& text) {
         unit = 0.01;
     }
     const auto value = readWhole<double>(number);
-    if (!value || !(*value * unit >= 1e-9 && *value * unit <= 1))
-        refuse(option, "a share as 1%, 0.5% or 0.01, from 1e-7% to 100%", text);
+    if (!value || !(*value * unit >= 2e-6 && *value * unit <= 1))
+        refuse(option, "a share as 1%, 0.5% or 0.01, from 0.0002% to 100%", text);
     return *value * unit;
 }
 

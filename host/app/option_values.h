@@ -20,7 +20,7 @@ std::int64_t parseInteger(const std::string& option, const std::string& text, st
                           std::int64_t maximum);
 /// A finite number in [minimum, maximum].
 double parseNumber(const std::string& option, const std::string& text, double minimum, double maximum);
-/// "1%", "0.5 %" or "0.01": a share of 1, above 0 and at most 100 %.
+/// "1%", "0.5 %" or "0.01": a share of 1, at most 100 % and at least 0.0002 %, twice what single precision may do.
 double parseShare(const std::string& option, const std::string& text);
 /// "30s", "5m", "2h" or "30": seconds, above 0.
 double parseSeconds(const std::string& option, const std::string& text);

@@ -18,7 +18,7 @@ constexpr int kBarWidth = 20;
 
 double RenderProgress::fraction() const {
     if (secondsLeft) return seconds > 0 ? seconds / (seconds + std::max(0.0, *secondsLeft)) : 0;
-    return samplesTotal > 0 ? samplesDone / samplesTotal : 0;
+    return target || !(samplesTotal > 0) ? 0 : samplesDone / samplesTotal;
 }
 
 std::string describeProgress(const RenderProgress& progress) {
@@ -37,12 +37,14 @@ ProgressDisplay::ProgressDisplay(std::FILE* stream, bool quiet)
       terminal_(isatty(fileno(stream)) == 1),
       start_(std::chrono::steady_clock::now()) {}
 
-void ProgressDisplay::begin(const std::string& title, double pixels, std::optional<double> targetError,
+void ProgressDisplay::begin(const std::string& title, double pixels, std::uint64_t samples,
+                            std::optional<double> targetError,
                             std::optional<std::chrono::steady_clock::time_point> deadline) {
     if (!quiet_) fmt::print(stream_, "{}\n", title);
     state_ = {};
     state_.target = targetError;
     pixels_ = pixels;
+    mostSamples_ = pixels * static_cast<double>(samples);
     deadline_ = deadline;
     start_ = std::chrono::steady_clock::now();
 }
@@ -85,7 +87,8 @@ std::optional<double> ProgressDisplay::secondsLeft(const ErrorMonitor& monitor) 
     if (!(state_.samplesDone > 0)) return left;
     const double rate = state_.samplesDone / state_.seconds;
     if (samples) ends((*samples * pixels_ - state_.samplesDone) / rate);
-    if (!state_.target) ends((state_.samplesTotal - state_.samplesDone) / rate);
+    if (!state_.target || (samples && mostSamples_ < *samples * pixels_))
+        ends((mostSamples_ - state_.samplesDone) / rate);
     return left;
 }
 

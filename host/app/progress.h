@@ -35,8 +35,9 @@ public:
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     /// Says what is rendered and starts the clock.
+    /// @param samples  a pixel, at most.
     /// @param targetError, deadline  what may end the render besides its samples.
-    void begin(const std::string& title, double pixels, std::optional<double> targetError = {},
+    void begin(const std::string& title, double pixels, std::uint64_t samples, std::optional<double> targetError = {},
                std::optional<std::chrono::steady_clock::time_point> deadline = {});
     /// Shows the state when it is time to.
     void update(double samplesDone, double samplesTotal, const ErrorMonitor& monitor);
@@ -55,7 +56,7 @@ private:
     bool terminal_;
     std::chrono::steady_clock::time_point start_;
     RenderProgress state_;
-    double pixels_ = 1;
+    double pixels_ = 1, mostSamples_ = 1;
     std::optional<std::chrono::steady_clock::time_point> deadline_;
     double nextRedraw_ = 0;  ///< seconds since begin()
     int tenthsShown_ = 0;

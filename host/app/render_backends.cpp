@@ -35,7 +35,7 @@ void beginRendering(const CompiledScene& scene, const RenderSettings& settings, 
     interruption.deferFirst();
     progress.begin(
         fmt::format("rendering {}, {}on {}", formatSize(scene.cropSize), describeTargets(settings, targets), device),
-        pixelCount(scene), targets.error, targets.deadline);
+        pixelCount(scene), settings.sampleCount, targets.error, targets.deadline);
 }
 
 /// A render under way with what is known of its error.
@@ -48,7 +48,8 @@ struct Run {
     const IntermediateFiles& intermediate;
     RenderOutcome& outcome;
     std::uint64_t snapshots = 0;
-    double nextSave = 0;
+    std::optional<std::chrono::steady_clock::time_point> deadline;
+    double nextSave = 0, writeSeconds = 0;
 
     void look(const Film& film) {
         if (!hasControls || !film.pixelSamples.empty()) return;
@@ -60,12 +61,16 @@ struct Run {
         look(film);
         const double begun = progress.secondsSinceBegin();
         if (!intermediate.write || begun < nextSave) return;
+        if (deadline &&
+            std::chrono::duration<double>(*deadline - std::chrono::steady_clock::now()).count() < 3 * writeSeconds)
+            return;
         outcome.film = film;
         outcome.seconds = begun;
         const std::string picture = intermediate.write(outcome);
         if (nextSave == 0) progress.note(fmt::format("a first picture after {}: {}", formatDuration(begun), picture));
         // Writing takes no more than a twentieth of the time.
         const double after = progress.secondsSinceBegin();
+        writeSeconds = after - begun;
         nextSave = after + std::max(intermediate.seconds, 20 * (after - begun));
     }
 
@@ -94,10 +99,13 @@ void predict(Run& run, double error) {
 }
 
 EndedBy renderToError(Run& run, double error, std::uint64_t maximum) {
+    std::uint64_t nextPrediction = kPilot;
     const auto renderTo = [&](std::uint64_t samples) {
-        if (!run.monitor.checkpoints().empty()) {
-            const std::uint64_t now = run.monitor.checkpoints().back().samples;
-            if (now == kPilot || now == kLongPilot) predict(run, error);
+        const auto& points = run.monitor.checkpoints();
+        const std::uint64_t now = points.empty() ? 0 : points.back().samples;
+        if (now >= nextPrediction) {
+            predict(run, error);
+            nextPrediction = now < kLongPilot ? kLongPilot : kUnlimitedSamples;
         }
         run.renderer.setSampleCount(samples);
         run.advance();
@@ -105,8 +113,9 @@ EndedBy renderToError(Run& run, double error, std::uint64_t maximum) {
     };
     const RuleEnd end =
         follow(StoppingRule(error, maximum), run.monitor, renderTo, [&] { return run.progress.secondsSinceBegin(); });
+    if (end == RuleEnd::Reached) return EndedBy::Error;
     if (run.interruption.requested()) return EndedBy::Interruption;
-    return end == RuleEnd::Reached ? EndedBy::Error : end == RuleEnd::Maximum ? EndedBy::Samples : EndedBy::Time;
+    return end == RuleEnd::Maximum ? EndedBy::Samples : EndedBy::Time;
 }
 
 }  // namespace
@@ -142,6 +151,7 @@ RenderOutcome renderWithVulkan(gpu::Device& device, const CompiledScene& scene, 
     Run run{renderer, ErrorMonitor(targets.norm),        interruption,
             progress, !settings.controls.pixels.empty(), intermediate,
             outcome};
+    run.deadline = targets.deadline;
     outcome.endedBy = EndedBy::NotYet;
     if (targets.error) {
         outcome.endedBy = renderToError(run, *targets.error, settings.sampleCount);

@@ -54,9 +54,11 @@ void requireInside(const PixelRect& crop, glm::uvec2 film) {
 /// The system may promise more memory than there is and end the process when it is used: ask first.
 void requireMemory(glm::uvec2 pixels, std::uint32_t depthLayers) {
     constexpr std::size_t kImageChannels = 16;  // those of toImage and of the error
-    // The film is held by the back end, with two copies of it as it was, and, at the end, copied from it.
+    // The film is held by the back end, with two copies of it as it was, and, at the end, copied from it, once more
+    // where it is written on the way. What judges pixels lists them.
+    constexpr double kJudged = 130;
     constexpr double kBytesPerPixel =
-        4 * sizeof(shared::FilmPixel) + 2 * sizeof(shared::FeaturePixel) + kImageChannels * sizeof(float);
+        kJudged + 5 * sizeof(shared::FilmPixel) + 2 * sizeof(shared::FeaturePixel) + kImageChannels * sizeof(float);
     const double layerBytes = (4.0 * sizeof(shared::LayerPixel) + 3 * sizeof(float)) * depthLayers;
     const double needed = (kBytesPerPixel + layerBytes) * pixels.x * pixels.y;
     const double allowed = 0.5 * static_cast<double>(physicalMemoryBytes());
@@ -118,9 +120,9 @@ std::vector<CloudBakeReport> bake(const RenderArguments& arguments, gpu::Device*
     return bakeClouds(description, device ? deviceBaker(*device) : twinBaker(), {.measureError = arguments.bakeError});
 }
 
-/// Writing takes time as well: what ZIP compression of the channels was measured to take, on the safe side.
+/// Judging the pixels and writing takes time as well: on the safe side.
 double secondsToWrite(const CompiledScene& scene) {
-    constexpr double kPerPixel = 1.5e-6, kPerLayer = 0.3e-6, kEver = 0.1;
+    constexpr double kPerPixel = 2.5e-6, kPerLayer = 0.3e-6, kEver = 0.1;
     return kEver + static_cast<double>(scene.cropSize.x) * scene.cropSize.y *
                        (kPerPixel + kPerLayer * scene.constants.depthLayers);
 }

@@ -223,8 +223,7 @@ bool Renderer::step() {
     s.lastMs = s.pass.run(batch, s.arguments(s.batches[batch]));
     s.checkCounters();
     const auto done = s.pass.samplesDone(batch);
-    const auto [slowest, fastest] = std::ranges::minmax(done);
-    const SampleSchedule::Reached reached{slowest, fastest};
+    const SampleSchedule::Reached reached{std::ranges::min(done), std::ranges::max(done)};
     const bool isComplete = s.schedule.advance(reached, s.lastMs, s.pathsDone(), s.secondsLeft());
     s.takeSnapshot(done, reached);
     if (!isComplete) {
@@ -249,7 +248,9 @@ void Renderer::setDeadline(std::chrono::steady_clock::time_point deadline) {
     state_->deadline = deadline;
 }
 
-std::uint64_t Renderer::setSampleCount(std::uint64_t count) { return state_->schedule.setSampleCount(count); }
+std::uint64_t Renderer::setSampleCount(std::uint64_t count) {
+    return state_->stopBy ? state_->schedule.sampleCount() : state_->schedule.setSampleCount(count);
+}
 
 Progress Renderer::progress() const {
     const State& s = *state_;
@@ -283,8 +284,7 @@ Film Renderer::film() {
     State& s = *state_;
     const bool isWhole = s.schedule.windowSize() == 0 || s.schedule.endsWithin();
     Film film = s.stopBy && !isWhole ? snapshot() : filmSoFar();
-    if (s.stopBy && film.samples == 0) return film;
-    s.ensureFeatures();
+    if (!s.stopBy || film.samples > 0) s.ensureFeatures();
     film.featureSamples = s.featureSamples;
     film.features = s.features;
     return film;

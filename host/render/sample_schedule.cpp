@@ -63,7 +63,9 @@ bool SampleSchedule::begin(std::optional<double> secondsLeft) {
 void SampleSchedule::raiseLimit(Reached reached, std::optional<double> secondsLeft) {
     // At first no further than the slowest has come: what is not kept is lost when the render is stopped.
     const double least = std::clamp(double(reached.slowest), 1.0, double(kMinimumRunAhead));
-    const double ahead = pathsDone_ > 0 ? std::clamp(kRunAheadMs / passMs(), least, 1e9) : least;
+    // Nor before the time of a sample is known, where time is what ends the render.
+    const bool isKnown = secondsLeft ? pathsDone_ >= pixels_ : pathsDone_ > 0;
+    const double ahead = isKnown ? std::clamp(kRunAheadMs / passMs(), least, 1e9) : least;
     double limit = std::max<double>(limit_, reached.slowest + ahead);
     if (batches_ == 1) {
         // No lane may begin what the slowest has no time for.

@@ -65,7 +65,7 @@ std::vector<BadUsage> badValues() {
 std::vector<BadUsage> badTargets() {
     return {
         badRender("ErrorOfNothing", {"--error", "0%"},
-                  "--error: expected a share as 1%, 0.5% or 0.01, from 1e-7% to 100%; got 0%\n"),
+                  "--error: expected a share as 1%, 0.5% or 0.01, from 0.0002% to 100%; got 0%\n"),
         badRender("ErrorOfTwice", {"--error", "2"}, "--error: expected a share as 1%"),
         badRender("ErrorNoNumber", {"--error", "%"}, "--error: expected a share as 1%"),
         badRender("ErrorNotFinite", {"--error", "nan%"}, "--error: expected a share as 1%"),

@@ -139,6 +139,23 @@ TEST(ErrorIntervalsOf, StoppingByControlPixelsBiasesNothing) {
     EXPECT_LE(honest.ofTrusted(), kMostOfPixels);
 }
 
+// What never gets known does not go on for ever.
+TEST(ErrorIntervalsOf, RulesGiveUpWhatStaysUnknown) {
+    const auto samplesOf = [](const std::function<double(double)>& sample, ErrorNorm norm) {
+        SampledFilm film({.size = {4, 4}, .sample = sample}, 1);
+        ErrorMonitor monitor(norm);
+        EXPECT_EQ(follow(
+                      StoppingRule(0.01, 1 << 24), monitor, [&](std::uint64_t n) { return film.growTo(n); },
+                      [] { return 1.0; }),
+                  RuleEnd::Maximum);
+        return film.film().samples;
+    };
+    EXPECT_EQ(samplesOf([](double) { return 0.0; }, ErrorNorm::Rms), 1024u);
+    // Half of the pixels are dark, so that 95 % of them are never known.
+    int i = 0;
+    EXPECT_EQ(samplesOf([&i](double u) { return i++ % 2 ? u : 0; }, ErrorNorm::Pixels), 65536u);
+}
+
 TEST(ErrorIntervalsOf, StoppingByTheImagesOwnSamplesWouldBiasIt) {
     const std::vector<double> truth(256, 2e-4 * 5001 + (1 - 2e-4));
     const auto render = [&](bool byControls) {
@@ -150,6 +167,7 @@ TEST(ErrorIntervalsOf, StoppingByTheImagesOwnSamplesWouldBiasIt) {
     EXPECT_LT(naive.meanZ, -6) << "the naive rule leaves the image too dark";
     EXPECT_LT(naive.ofImage(), 0.85);
     EXPECT_LT(std::abs(honest.meanZ), 4.9);
+    EXPECT_GE(honest.ofImage(), 0.9);
 }
 
 }  // namespace

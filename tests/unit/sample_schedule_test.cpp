@@ -97,6 +97,16 @@ TEST(SampleSchedule, TakesOneSampleHoweverShortTheTime) {
     }
 }
 
+// The first dispatch, of a device nobody knows, does not take the time of hundreds.
+TEST(SampleSchedule, BeginsCarefullyWhereTimeCounts) {
+    SampleSchedule schedule(1, 64, 1u << 24);
+    FakeDevice device(1, 64, 20);
+    device.deadline = 0.01;
+    device.render(schedule);
+    EXPECT_GT(schedule.windowStart(), 0u);
+    EXPECT_LE(device.now, 0.5);
+}
+
 // A large film whose last pass does not fit: the batches that do get it.
 TEST(SampleSchedule, EndsBetweenBatchesWhereTimeEnds) {
     SampleSchedule schedule(4, 4 * 64, 1000);
