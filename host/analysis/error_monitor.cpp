@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "analysis/statistics.h"
 
@@ -11,24 +10,6 @@ namespace parhelion {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Slope of a line through (x, y), by least squares.
-double slopeOf(std::span<const ErrorCheckpoint> points, double (*x)(const ErrorCheckpoint&),
-               double (*y)(const ErrorCheckpoint&)) {
-    double meanX = 0, meanY = 0, xx = 0, xy = 0;
-    for (const ErrorCheckpoint& p : points) {
-        meanX += x(p) / double(points.size());
-        meanY += y(p) / double(points.size());
-    }
-    for (const ErrorCheckpoint& p : points) {
-        xx += (x(p) - meanX) * (x(p) - meanX);
-        xy += (x(p) - meanX) * (y(p) - meanY);
-    }
-    return xx > 0 ? xy / xx : 0;
-}
-
-double logSamples(const ErrorCheckpoint& p) { return std::log(double(p.samples)); }
-double logError(const ErrorCheckpoint& p) { return std::log(p.error); }
 
 /// Error after `ratio` times the samples, relative to that now. What falls faster than 1/sqrt(n) does so the less the
 /// more samples there are: the excess is taken to halve with each four times the samples, as between a smooth
@@ -86,12 +67,15 @@ void ErrorMonitor::add(const Film& film, double seconds) {
 
 /// Of log error over log samples: -1/2 for independent samples, steeper for stratified ones.
 double ErrorMonitor::slope() const {
-    std::vector<ErrorCheckpoint> known;
+    std::vector<double> samples, errors;  // their logarithms
     const double from = double(checkpoints_.back().samples) / 8;
     for (const ErrorCheckpoint& p : checkpoints_)
-        if (double(p.samples) >= from && p.error > 0 && std::isfinite(p.error)) known.push_back(p);
-    if (known.size() < 2 || known.front().samples * 2 > known.back().samples) return -0.5;
-    return std::clamp(slopeOf(known, logSamples, logError), -1.5, -0.5);
+        if (double(p.samples) >= from && p.error > 0 && std::isfinite(p.error)) {
+            samples.push_back(std::log(double(p.samples)));
+            errors.push_back(std::log(p.error));
+        }
+    if (samples.empty() || samples.back() - samples.front() < std::log(2)) return -0.5;
+    return std::clamp(leastSquaresSlope(samples, errors), -1.5, -0.5);
 }
 
 std::optional<double> ErrorMonitor::errorAt(double samples) const {

@@ -42,6 +42,18 @@ double equivalentNormal(double t, double degreesOfFreedom) {
     return std::copysign(std::min(z, std::abs(t)), t);
 }
 
+double leastSquaresSlope(std::span<const double> x, std::span<const double> y) {
+    RunningMoments ofX, ofY;
+    for (const double value : x) ofX.add(value);
+    for (const double value : y) ofY.add(value);
+    double xx = 0, xy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        xx += (x[i] - ofX.mean()) * (x[i] - ofX.mean());
+        xy += (x[i] - ofX.mean()) * (y[i] - ofY.mean());
+    }
+    return xx > 0 ? xy / xx : 0;
+}
+
 double sidak(double familySignificance, std::size_t tests) {
     return -std::expm1(std::log1p(-familySignificance) / static_cast<double>(tests));
 }

@@ -91,6 +91,9 @@ struct StudentDeviate {
 /// @param rounding  standard deviation of the rounding of a mean of 1; decides only where noise is absent.
 StudentDeviate differenceDeviate(const NoisyMean& a, const NoisyMean& b, double rounding);
 
+/// Slope of the line through points that is nearest to them in y; 0 where all have one x. As many x as y.
+double leastSquaresSlope(std::span<const double> x, std::span<const double> y);
+
 /// A ratio and its confidence interval.
 struct RatioInterval {
     double ratio = 0;

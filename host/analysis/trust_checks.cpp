@@ -5,6 +5,7 @@
 #include <span>
 
 #include "analysis/error_monitor.h"
+#include "analysis/statistics.h"
 
 namespace parhelion {
 namespace {
@@ -34,17 +35,14 @@ double pearsonT(std::span<const double> x, std::span<const double> y) {
     return r * std::sqrt((n - 2) / std::max(1e-12, 1 - r * r));
 }
 
-/// Least squares exponent of y over samples.
+/// Of a power of the samples that the values follow.
 double exponent(std::span<const ErrorCheckpoint> points, double ErrorCheckpoint::*value) {
-    double mx = 0, my = 0, xx = 0, xy = 0;
-    const double n = double(points.size());
-    for (const ErrorCheckpoint& p : points) mx += std::log(double(p.samples)) / n, my += std::log(p.*value) / n;
+    std::vector<double> samples, values;
     for (const ErrorCheckpoint& p : points) {
-        const double x = std::log(double(p.samples)) - mx;
-        xx += x * x;
-        xy += x * (std::log(p.*value) - my);
+        samples.push_back(std::log(double(p.samples)));
+        values.push_back(std::log(p.*value));
     }
-    return xx > 0 ? xy / xx : 0;
+    return leastSquaresSlope(samples, values);
 }
 
 bool falls(std::span<const ErrorCheckpoint> points, double ErrorCheckpoint::*value) {

@@ -18,6 +18,7 @@ h1{font-size:1.5rem;margin:.2rem 0}h2{font-size:1.1rem;margin:2rem 0 .4rem}p{mar
 th,td{padding:.3rem .6rem .3rem 0;text-align:left;border-bottom:1px solid var(--rule);vertical-align:top}
 th{font-weight:600}td.n{white-space:nowrap}.passed{color:var(--good)}.failed{color:var(--bad);font-weight:600}.notJudged{color:var(--soft)}
 svg.plot{width:100%;height:auto;display:block}svg.plot text{fill:currentColor;font-size:12px}
+@media(max-width:34rem){svg.plot text{font-size:18px}}
 svg.plot .grid{stroke:var(--rule);stroke-width:1;fill:none}svg.plot .line{stroke:var(--soft);stroke-width:1.2;stroke-dasharray:2 3;fill:none}
 section{break-inside:avoid})";
 

@@ -209,5 +209,13 @@ TEST(KolmogorovSmirnovTest, TellsDistributionsApart) {
     EXPECT_THROW(kolmogorovSmirnovTest({1.0}, [](double) { return 1.5; }), std::invalid_argument);
 }
 
+TEST(LeastSquares, FindsTheSlopeOfALine) {
+    const std::vector<double> x{1, 2, 4, 8}, line{5, 3, -1, -9}, bent{0, 1, 0, 1};
+    EXPECT_NEAR(leastSquaresSlope(x, line), -2, 1e-12);
+    // By hand: mean x 3.75, xx = 28.75, xy = 2.5 (y about 0.5).
+    EXPECT_NEAR(leastSquaresSlope(x, bent), 2.5 / 28.75, 1e-12);
+    EXPECT_EQ(leastSquaresSlope(std::vector<double>{3, 3}, std::vector<double>{1, 2}), 0);
+}
+
 }  // namespace
 }  // namespace parhelion
